@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# CPack runs this over the files of each Debian package before it packs them: what Debian asks of packages, and of no other
-# installation.
+# CPack runs this on the files of each Debian package before it packs them. It adds what Debian's policy requires of packages and other
+# installations do not need.
 cmake_minimum_required(VERSION 3.25)
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
@@ -8,7 +8,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(root ${CPACK_TEMPORARY_DIRECTORY}/${component}/usr)
   set(documents ${root}/share/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
   file(COPY ${CPACK_SALEBRA_COPYRIGHT} DESTINATION ${documents})
-  # The copyright names the license, which is part of Debian. Debian's zsh looks into vendor-completions.
+  # The copyright file refers to the license text that Debian ships. Debian's zsh reads vendor-completions instead of site-functions.
   file(REMOVE_RECURSE ${documents}/LICENSE ${root}/share/zsh/site-functions)
   file(WRITE ${documents}/changelog "salebra (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the build asks for: the libraries of SalebraFind.cmake and what else this configuration compiles with. All that is missing is
-# reported at once. scripts/install-dependencies names the Debian packages.
+# Finds the libraries of SalebraFind.cmake and the other requirements of this configuration, and reports all missing ones at once.
+# scripts/install-dependencies names the Debian packages.
 include(SalebraFind)
 set(salebra_missing "")
-# Clang 14 and 15 take no structured binding into a lambda, and no aggregate in parentheses: what compiles with them does without.
+# Clang 14 and 15 can neither capture a structured binding in a lambda nor initialise an aggregate in parentheses, so the code avoids both.
 set(compiler "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}")
 string(REGEX MATCH "^(GNU ([1-9]|1[01])|Clang ([1-9]|1[0-3]))[.]" old "${compiler}")
 if(old)
@@ -25,7 +25,7 @@ if(SALEBRA_BUILD_APPS AND NOT SALEBRA_ONLY_GENERATORS)
   salebra_need(CLI11_FOUND "CLI11 (-D SALEBRA_BUILD_APPS=OFF does without)")
 endif()
 if(SALEBRA_BUILD_TESTS)
-  # Without a version, as Eigen.
+  # Without a version, as for Eigen in SalebraFind.cmake.
   find_package(Catch2 QUIET)
   if(Catch2_FOUND AND Catch2_VERSION VERSION_LESS 2.13)
     set(Catch2_FOUND OFF)
@@ -39,11 +39,11 @@ if(salebra_missing)
     "Libraries in a folder of their own are found with -D CMAKE_PREFIX_PATH=FOLDER.")
 endif()
 
-# HDF5, from its archives where a target says so: the shared library brings those of networks, for files on servers, and with them 40 %
-# of the program's start. An extension of Python needs code that archives need not have.
+# HDF5 is linked statically into targets that ask for it: the shared library loads network libraries, for files on servers, which take 40 %
+# of the program's start. A Python extension needs position-independent code, which static libraries may lack.
 if(NOT SALEBRA_ONLY_GENERATORS)
   option(SALEBRA_HDF5_ARCHIVE "Link HDF5's archives into the program, where there are any" ON)
-  # Those beside the shared library: headers and archive are then of one version.
+  # Only the folder of the shared library is searched, so that headers and archive have the same version.
   string(REGEX REPLACE "/[^/;]*(;.*)?$" "" beside "${HDF5_C_LIBRARIES}")
   find_library(HDF5_ARCHIVE NAMES libhdf5.a PATHS ${beside} NO_DEFAULT_PATH)
   find_library(HDF5_HL_ARCHIVE NAMES libhdf5_hl.a PATHS ${beside} NO_DEFAULT_PATH)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The third-party libraries that salebra's libraries use, for the build and, installed beside salebraConfig.cmake, for projects
-# that link them. Every one comes from the system; nothing is downloaded at configure time. Nothing here ends the configuration: what
-# is missing is listed, by names and versions that a message can print.
+# Finds the third-party libraries of salebra, for the build and, installed next to salebraConfig.cmake, for projects that link salebra.
+# All come from the system; nothing is downloaded at configure time. Nothing here stops the configuration: salebra_missing lists the
+# missing ones, with names and versions that a message can print.
 
-# Each library uses some of those before it, and no later one.
+# Each library uses only libraries listed before it.
 set(salebra_libraries base generators salebra analysis io results study report)
 
 # salebra_need(FOUND WHAT): notes WHAT as missing unless FOUND is true.
@@ -13,7 +13,7 @@ macro(salebra_need found what)
   endif()
 endmacro()
 
-# salebra_need_module(NAME MODULE WHAT): the target PkgConfig::NAME.
+# salebra_need_module(NAME MODULE WHAT): defines the target PkgConfig::NAME, or notes WHAT as missing.
 macro(salebra_need_module name module what)
   if(PkgConfig_FOUND AND NOT TARGET PkgConfig::${name})
     pkg_check_modules(${name} QUIET IMPORTED_TARGET ${module})
@@ -23,14 +23,14 @@ macro(salebra_need_module name module what)
   endif()
 endmacro()
 
-# salebra_find(LIBRARY): looks for what this library and those before it use. Appends what is missing to salebra_missing.
+# salebra_find(LIBRARY): finds the dependencies of this library and of all before it. Appends missing ones to salebra_missing.
 macro(salebra_find library)
   list(FIND salebra_libraries ${library} salebra_rank)
   find_package(Threads QUIET)
   salebra_need(Threads_FOUND "POSIX threads")
   find_package(OpenMP QUIET COMPONENTS CXX)
   salebra_need(OpenMP_CXX_FOUND "OpenMP of the C++ compiler")
-  # Without a version: the packages of Eigen 3 and 5 each accept none but their own.
+  # Without a version, because the packages of Eigen 3 and 5 each accept only their own major version.
   find_package(Eigen3 QUIET NO_MODULE)
   if(Eigen3_FOUND AND Eigen3_VERSION VERSION_LESS 3.4)
     set(Eigen3_FOUND OFF)
@@ -43,7 +43,7 @@ macro(salebra_find library)
   salebra_need_module(FFTW3 fftw3 "FFTW 3 in double precision")
   salebra_need_module(FFTW3F fftw3f "FFTW 3 in single precision")
   if(salebra_rank GREATER 1)
-    # CMake's module for GSL asks pkg-config.
+    # CMake's module for GSL needs pkg-config.
     if(PkgConfig_FOUND)
       find_package(GSL 2.7 QUIET)
     endif()
@@ -60,7 +60,7 @@ macro(salebra_find library)
       find_package(HDF5 1.10 QUIET COMPONENTS C HL)
     endif()
     salebra_need(HDF5_FOUND "HDF5 1.10 or later for C, with its high-level library")
-    # libzip's own CMake package asks for its programs, which Debian packs apart.
+    # libzip's own CMake package needs its programs, which Debian packages separately.
     salebra_need_module(LIBZIP libzip "libzip")
     find_package(ZLIB QUIET)
     salebra_need(ZLIB_FOUND "zlib")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The installed package in components: `program` with its manual, study files and documentation, `development` with the
-# libraries, their headers, and what find_package(salebra) needs, and with SALEBRA_BUILD_MPI `mpi` with the program salebra-mpi.
+# The components of an installation: `program` has the program, its manual, study files and documentation, `development` the
+# libraries, their headers and the files for find_package(salebra), and `mpi`, with SALEBRA_BUILD_MPI, the program salebra-mpi.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/salebra)
 
@@ -25,8 +25,8 @@ install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT progr
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.txt" PATTERN "*.md"
   PATTERN reference EXCLUDE)
 
-# cpack -G DEB: salebra, libsalebra-dev and, with MPI, salebra-mpi. dpkg-shlibdeps reads from the programs what they depend on. Libraries
-# lie where Debian has them if the tree is configured for /usr, as by the preset `package`.
+# cpack -G DEB makes salebra, libsalebra-dev and, with MPI, salebra-mpi. dpkg-shlibdeps finds the dependencies of the programs. Libraries
+# are installed where Debian expects them if the tree is configured for /usr, as in the preset `package`.
 set(CPACK_PACKAGE_NAME salebra)
 set(CPACK_PACKAGE_VENDOR "The salebra developers")
 set(CPACK_PACKAGE_CONTACT "The salebra developers <developers@salebra.invalid>")
@@ -51,7 +51,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Generates and measures rough surfaces, presses them by boundary elements\n and by Greenwood-Williamson's model, and computes the relaxation damping\n of oscillating contacts.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME salebra-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "salebra (= ${PROJECT_VERSION})")  # its manual, study files and documentation
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "salebra (= ${PROJECT_VERSION})")  # for the manual, study files and documentation
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
 set(CPACK_COMPONENT_MPI_DESCRIPTION
   "salebra over the processes of MPI: generates and presses a surface that\n one machine does not hold.")

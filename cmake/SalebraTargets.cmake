@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# salebra_library(TARGET NAME [LIKE]): a library target with the project's warnings, the alias salebra::NAME and an installed header set.
-# LIKE: a target with the same compiler flags, whose parsed headers this one takes over (salebra_parse_once).
-# A header of a library belongs to the file set HEADERS; private headers stand in src/, beside the sources.
+# salebra_library(TARGET NAME [LIKE]): defines a library with the project's warnings, the alias salebra::NAME and an installed header set.
+# LIKE: a target with the same compiler flags, whose precompiled headers this one reuses (salebra_parse_once).
+# Public headers belong to the file set HEADERS; private headers are in src/, next to the sources.
 function(salebra_library target alias)
   add_library(${target} STATIC)
   add_library(salebra::${alias} ALIAS ${target})
@@ -22,17 +22,17 @@ function(salebra_warnings target)
   endif()
 endfunction()
 
-# GCC forgets which of the headers that are parsed once are the system's and then sees overruns in std::string.
+# GCC forgets which precompiled headers are system headers and then warns of overruns in std::string.
 function(salebra_precompiled_warnings target)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
   endif()
 endfunction()
 
-# What nearly every source of ours includes is parsed once for a target, and sources are compiled 32 at a time, so that what they share
-# is made once: with 30 a compiler took 1.3 GB, with 18 1.1 GB, but 4 % more processor time. Names without linkage
-# are therefore unique in a target. Every file still includes what it uses: SALEBRA_WERROR, with which the project is developed, builds
-# file by file. CMAKE_UNITY_BUILD=OFF and CMAKE_DISABLE_PRECOMPILE_HEADERS do without one or the other, as everywhere.
+# Common headers are precompiled once per target, and 32 sources are compiled as one, which instantiates shared templates once. With 30
+# sources a compiler took 1.3 GB, with 18 it took 1.1 GB but 4 % more processor time. Names in unnamed namespaces must therefore be unique
+# in a target. Every file still includes what it uses: development builds, with SALEBRA_WERROR, compile each file alone.
+# CMAKE_UNITY_BUILD=OFF and CMAKE_DISABLE_PRECOMPILE_HEADERS switch these off, as in every project.
 function(salebra_parse_once target)
   if(SALEBRA_WERROR)
     return()
@@ -40,7 +40,7 @@ function(salebra_parse_once target)
   if(NOT DEFINED CMAKE_UNITY_BUILD)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32)
   endif()
-  # A name of one source may hide that of another, and a source is not the file that is compiled.
+  # In a combined source a name may hide that of another file, and types of an unnamed namespace seem to come from an included file.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   if(ARGN)
     target_precompile_headers(${target} REUSE_FROM ${ARGN})
@@ -52,20 +52,20 @@ function(salebra_parse_once target)
   salebra_precompiled_warnings(${target})
 endfunction()
 
-# salebra_compile_fast(TARGET [SOURCE…]): for what reads, writes and asks, not what computes, unless whoever builds chose an optimisation. It
-# takes two thirds of the time to compile, and numbers keep their bits. The sources are those that something waits for all the same.
+# salebra_compile_fast(TARGET [SOURCE…]): compiles a target with -O1, in two thirds of the time, unless the user chose an optimisation.
+# It is for code that reads, writes and checks; numbers keep their bits. The SOURCEs are speed-critical and get -O2.
 function(salebra_compile_fast target)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-O" AND CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     if(ARGN)
-      # Headers that are compiled already are of the other optimisation: GCC 13 would refuse them, with a warning.
+      # The precompiled headers have the other optimisation level: GCC 13 would reject them, with a warning.
       set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES
         COMPILE_OPTIONS $<$<CONFIG:Release>:-O2> SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endif()
 endfunction()
 
-# Examples and benchmarks spend their time to compile on headers: these are parsed once, and the first of the programs owns them.
+# Examples and benchmarks spend most of their compile time on headers. The first program owns the precompiled headers, the others reuse them.
 function(salebra_program_headers target)
   if(SALEBRA_WERROR)
     return()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 01_surface — a self-affine surface: what was asked for, what its grid can carry, and what it has.
+// 01_surface — makes a self-affine surface and compares its requested roughness with the roughness
+// that the grid can represent and with that of the surface made.
 // Sample runs:  01_surface        01_surface 1024        01_surface 512 0.6 3
 #include <cmath>
 #include <cstdio>
@@ -19,17 +20,18 @@ int main(int argc, char** argv) try {
   const double hurst = argc > 2 ? std::atof(argv[2]) : 0.8;
   const unsigned long seed = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 1;
 
-  // 1. A cell of 1 mm, waves from half of it down to eight cells of the grid, 1 µm rms height.
+  // 1. The period is 1 mm, the roll-off half of it, the shortest wave eight cells of the grid, and
+  //    the rms height 1 µm.
   const Grid2D grid{n, n, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = hurst, .rolloff = grid.lx / 2, .short_cutoff = 8 * grid.dx(), .rms_height = 1e-6});
 
-  // 2. Before any surface is made, the lattice sum tells what this cell has of that spectrum.
+  // 2. Before any surface is made, the lattice sum predicts its moments on this grid.
   const Forecast expected = forecast(grid, spectrum);
   for (const auto& warning : expected.warnings) std::printf("note: %s\n", warning.c_str());
 
-  // 3. The surface. Random phase gives every mode its power exactly, so it must have the lattice's
-  //    moments.
+  // 3. Random phase gives every mode exactly its power, so the surface must have the moments of the
+  //    lattice sum.
   const Surface surface = random_phase(grid, spectrum, seed);
   const SpectralMoments realised = spectral_moments(surface);
   std::printf("%-22s %12s %12s %12s\n", "", "continuum", "lattice", "realised");
@@ -44,7 +46,8 @@ int main(int argc, char** argv) try {
   row("rms slope", &SpectralMoments::rms_slope, Dimension::dimensionless);
   row("Nayak parameter", &SpectralMoments::nayak, Dimension::dimensionless);
 
-  // 4. Its summits, beside Nayak's density for a Gaussian surface of these moments, m4/(6√3 π m2).
+  // 4. Compare the number of summits with Nayak's density for a Gaussian surface of these moments,
+  //    m4/(6√3 π m2).
   const SummitStatistics summits = summit_statistics(find_summits(surface));
   const double nayak_density =
       realised.moment4() / (6 * std::sqrt(3.0) * std::numbers::pi * realised.moment2());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 03_force_gap_fit — force against mean gap by two models, and how well F ∝ exp(−ū/l) holds for
-// each.
+// 03_force_gap_fit — computes force against mean gap by three models and tests for each how well
+// F ∝ exp(−ū/l) holds.
 // Sample runs:  03_force_gap_fit        03_force_gap_fit 512        03_force_gap_fit 512 0.5 11
 #include <cmath>
 #include <cstdio>
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
   const double hurst = argc > 2 ? std::atof(argv[2]) : 0.8;
   const unsigned long seed = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 7;
 
-  // 1. A surface and a material: one elastic body, ν = 0.3, against a rigid one.
+  // 1. Make a surface and a material: one elastic body, ν = 0.3, against a rigid one.
   const Grid2D grid{n, n, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = hurst, .rolloff = grid.lx / 4, .short_cutoff = 8 * grid.dx(), .rms_height = 1e-6});
@@ -28,13 +28,13 @@ int main(int argc, char** argv) try {
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const SpectralMoments moments = spectral_moments(surface);
 
-  // 2. Pressures from the first summits to a tenth of the area.
+  // 2. The pressures reach from the contact of a few summits to about a tenth of the area.
   std::vector<double> pressures;
   const double full = material.contact_modulus * moments.rms_slope();
   for (int i = 0; i < 16; ++i) pressures.push_back(full * 5e-4 * std::pow(100.0, i / 15.0));
 
-  // 3. Boundary elements; Greenwood–Williamson with summits from the moments, and with the
-  //    surface's own summits.
+  // 3. The models are boundary elements, Greenwood–Williamson with summits from the moments, and
+  //    Greenwood–Williamson with the surface's own summits.
   const ForceCurve by_elements = sweep_pressures(surface, material, pressures);
   SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
   ensemble.rms_height = moments.rms_height();
@@ -45,8 +45,8 @@ int main(int argc, char** argv) try {
                                               0.0, moments.rms_height()),
                          pressures);
 
-  // 4. One line for each: decay length over rms height, its range over parts of the window, and its
-  //    drift along the window.
+  // 4. Print for each the decay length over rms height, its range over parts of the window, and its
+  //    change along the window.
   std::printf("%-26s %8s %18s %22s\n", "model", "l/h_rms", "parts of window", "closest … farthest");
   const auto report = [&](const char* name, const ForceCurve& curve) {
     const double h = moments.rms_height();

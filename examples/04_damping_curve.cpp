@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 04_damping_curve — damping constant of a rough contact against amplitude: Eq. (16) with a fitted
-// decay length, the same law at finite amplitude, and the curve itself without any law.
+// 04_damping_curve — computes the damping constant of a rough contact against amplitude by Eq. (16)
+// with a fitted decay length, by the same law at finite amplitude, and by the curve without a law.
 // Sample runs:  04_damping_curve        04_damping_curve 512        04_damping_curve 512 0.003
 #include <cmath>
 #include <cstdio>
@@ -22,7 +22,7 @@ int main(int argc, char** argv) try {
   const Index n = argc > 1 ? std::atoi(argv[1]) : 256;
   const double relative_pressure = argc > 2 ? std::atof(argv[2]) : 0.01;  // p/(E*h')
 
-  // 1. Surface, material and force–gap curve, as in example 03.
+  // 1. Make surface, material and force–gap curve as in example 03.
   const Grid2D grid{n, n, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = grid.lx / 4, .short_cutoff = 8 * grid.dx(), .rms_height = 1e-6});
@@ -33,14 +33,15 @@ int main(int argc, char** argv) try {
   for (int i = 0; i < 24; ++i) pressures.push_back(full * 2e-4 * std::pow(500.0, i / 23.0));
   const ForceCurve curve = sweep_pressures(surface, material, pressures);
 
-  // 2. Two laws from one curve: the paper's exponential, and the samples themselves.
+  // 2. Make two laws from the curve: the paper's exponential law, and an interpolation of the
+  //    samples.
   const double force = relative_pressure * full * grid.area();
   const double decay_length = fit_exponential(curve).decay_length;
   const ExponentialLaw exponential(force, decay_length, material.modulus_ratio());
   const TabulatedLaw tabulated(curve, material.modulus_ratio());
 
-  // 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the
-  //    amplitude.
+  // 3. Shear the contact at 1 µm/s while it vibrates in the normal direction at 20 kHz, and print
+  //    the damping constant P/v² for each amplitude.
   std::printf("F = %.4g N, l = %.4g nm\n", force, decay_length * 1e9);
   std::printf("%8s %16s %16s %16s (N s/m) %12s %12s\n", "u_z/l", "Eq. (16)", "exponential law",
               "curve", "(16)/law", "(16)/curve");
@@ -59,8 +60,8 @@ int main(int argc, char** argv) try {
     if (!law.converged || !measured.converged) return 1;
   }
 
-  // 4. Eq. (16) over the law is the finite amplitude alone, 1 + 0.42 u_z/l + …; over the curve it
-  //    is also the price of the fit.
+  // 4. The ratio of Eq. (16) to the law shows the effect of the finite amplitude alone,
+  //    1 + 0.42 u_z/l + …; the ratio to the curve also contains the error of the fit.
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

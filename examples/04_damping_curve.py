@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""04_damping_curve: damping constant of a rough contact against amplitude: Eq. (16) with a fitted decay length, the same law at
-finite amplitude, and the curve itself without any law.
+"""04_damping_curve: computes the damping constant of a rough contact against amplitude by Eq. (16) with a fitted decay length, by the
+same law at finite amplitude, and by the curve without a law.
 
 Sample runs:  04_damping_curve.py        04_damping_curve.py 512        04_damping_curve.py 512 0.003
 """
@@ -16,7 +16,7 @@ from salebra import closed_form
 n = int(sys.argv[1]) if len(sys.argv) > 1 else 256
 relative_pressure = float(sys.argv[2]) if len(sys.argv) > 2 else 0.01  # p/(E*h')
 
-# 1. Surface, material and force–gap curve, as in example 03.
+# 1. Make surface, material and force–gap curve as in example 03.
 grid = salebra.Grid2D(n, n, 1e-3, 1e-3)
 spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=grid.lx / 4, short_cutoff=8 * grid.dx, rms_height=1e-6)
 surface = salebra.random_phase(grid, spectrum, 7)
@@ -24,14 +24,14 @@ material = salebra.Material(1e9, poisson=0.3)
 full = material.contact_modulus * surface.moments.rms_slope
 curve = salebra.sweep_pressures(surface, material, full * np.geomspace(2e-4, 0.1, 24))
 
-# 2. Two laws from one curve: the paper's exponential, and the samples themselves.
+# 2. Make two laws from the curve: the paper's exponential law, and an interpolation of the samples.
 force = relative_pressure * full * grid.area
 decay_length = salebra.fit_exponential(curve).decay_length
 ratio = material.modulus_ratio
 exponential = salebra.ExponentialLaw(force, decay_length, ratio)
 tabulated = salebra.TabulatedLaw(curve, ratio)
 
-# 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
+# 3. Shear the contact at 1 µm/s while it vibrates in the normal direction at 20 kHz, and print the damping constant P/v² for each amplitude.
 print(f"F = {force:.4g} N, l = {decay_length * 1e9:.4g} nm")
 print(f"{'u_z/l':>8} {'Eq. (16)':>16} {'exponential law':>16} {'curve':>16} (N s/m) {'(16)/law':>12} {'(16)/curve':>12}")
 for k in (0.02, 0.05, 0.1, 0.2, 0.4):
@@ -46,4 +46,5 @@ for k in (0.02, 0.05, 0.1, 0.2, 0.4):
     if not (law.converged and measured.converged):
         sys.exit(1)
 
-# 4. Eq. (16) over the law is the finite amplitude alone, 1 + 0.42 u_z/l + …; over the curve it is also the price of the fit.
+# 4. The ratio of Eq. (16) to the law shows the effect of the finite amplitude alone, 1 + 0.42 u_z/l + …; the ratio to the curve also
+#    contains the error of the fit.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 05_measured_surface — a file of an instrument, pressed: force against mean gap, its decay length,
-// and whether there is one.
+// 05_measured_surface — presses a measured surface, computes force against mean gap, and checks
+// whether the curve has one decay length.
 // Sample runs:  05_measured_surface data/surfaces/afm-scan.txt        05_measured_surface scan.x3p 70e9
 #include <cmath>
 #include <cstdio>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   }
   const double contact_modulus = argc > 2 ? std::atof(argv[2]) : 115e9;  // Pa
 
-  // 1. The heights, whatever the format, less the tilt of the stage.
+  // 1. Read the heights from any format and subtract the tilt of the stage.
   const Surface raw = read_surface(argv[1]);
   const Surface surface = detrended(raw, default_detrend(raw));
   const SpectralMoments moments = surface_moments(surface);
@@ -28,8 +28,8 @@ int main(int argc, char** argv) try {
               format_quantity(surface.grid.ly, Dimension::length).c_str(),
               format_quantity(moments.rms_height(), Dimension::length).c_str(), rms_slope);
 
-  // 2. Sixteen loads from some summits to a fifth of full contact, E*h'. The scan is continued
-  //    periodically.
+  // 2. Press at sixteen loads, from the contact of a few summits to a fifth of full contact, E*h'.
+  //    The scan is continued periodically.
   std::vector<double> pressures;
   for (int i = 0; i < 16; ++i)
     pressures.push_back(contact_modulus * rms_slope * 5e-4 * std::pow(400.0, i / 15.0));
@@ -44,8 +44,8 @@ int main(int argc, char** argv) try {
                 format_quantity(sample.mean_gap, Dimension::length).c_str(),
                 100 * sample.contact_area_fraction);
 
-  // 3. The exponential law, and the problem whether it holds. Where it does not, use the curve
-  //    itself, as in example 04.
+  // 3. Fit the exponential law and test it. If it does not hold, use the curve itself, as in
+  //    example 04.
   const ExponentialFit fit = fit_exponential(curve);
   const ExponentialTest test = test_exponential(curve);
   const WindowSensitivity parts = window_sensitivity(curve);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 06_mdr_oscillation — the paper's argument, spring by spring: a round indenter on its
-// one-dimensional foundation, shaken in both directions, against Eq. (12) and against the theorem
-// for finite amplitudes.
+// 06_mdr_oscillation — sums the loss spring by spring, as the paper argues: an axisymmetric
+// indenter on its one-dimensional foundation oscillates in both directions. The sum is compared
+// with Eq. (12) and with the theorem for finite amplitudes.
 // Sample runs:  06_mdr_oscillation cone        06_mdr_oscillation paraboloid        06_mdr_oscillation paraboloid 0.9
 #include <cmath>
 #include <cstdio>
@@ -20,33 +20,33 @@ int main(int argc, char** argv) try {
   const std::string shape = argc > 1 ? argv[1] : "cone";
   const double relative_amplitude = argc > 2 ? std::atof(argv[2]) : 0.3;  // u_z/δ
 
-  // 1. The indenter and its image g(x), Eqs (3) to (5); one elastic body with ν = 0.3.
+  // 1. Make the indenter with its image g(x), Eqs (3) to (5); one body is elastic with ν = 0.3.
   const std::shared_ptr<const IndenterProfile> profile =
       shape == "cone" ? cone_profile(0.1) : paraboloid_profile(10e-3);
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const IndenterLaw law(profile, material);
 
-  // 2. The motion: mean indentation 1 µm, both amplitudes in phase quadrature.
+  // 2. The mean indentation is 1 µm, and both oscillations are in phase quadrature.
   const double indentation = 1e-6;  // m
   const EqualFrequency motion{.normal_amplitude = relative_amplitude * indentation,
                               .tangential_amplitude = 200e-9,
                               .phase = std::numbers::pi / 2};
 
-  // 3. The foundation: springs Δx apart, each with its distance z0 = g(x) − δ from first touch. Eq.
-  //    (7) says how far it is
-  // released, Eq. (8) what it loses, Eq. (9) whether it loses anything.
+  // 3. The springs of the foundation are Δx apart, each at its distance z0 = g(x) − δ from first
+  //    touch. Eq. (9) says whether a spring loses energy, Eq. (7) gives the distance by which it is
+  //    released, and Eq. (8) the energy that it loses.
   const double largest = law.contact_radius(indentation + motion.normal_amplitude);
   const int springs = 100000;  // on one side
   const double width = largest / springs;
   double by_springs = 0;
   for (int i = 0; i < springs; ++i) {
-    const double level = profile->image((i + 0.5) * width) - indentation;
-    if (!closed_form::intermittent_contact(level, motion.normal_amplitude)) continue;
-    const double released = closed_form::released_distance(level, motion);
+    const double depth = profile->image((i + 0.5) * width) - indentation;
+    if (!closed_form::intermittent_contact(depth, motion.normal_amplitude)) continue;
+    const double released = closed_form::released_distance(depth, motion);
     by_springs += 2 * closed_form::spring_energy(material.tangential_modulus, released, width);
   }
 
-  // 4. Eq. (12) knows only F'' at the mean indentation; the theorem knows the whole law.
+  // 4. Eq. (12) uses only F'' at the mean indentation; the theorem uses the whole law.
   const double small = closed_form::work_per_cycle(material.modulus_ratio(),
                                                    law.force_curvature(indentation), motion);
   const DampingResult exact = relaxation_damping(law, at_indentation(indentation), motion);
@@ -57,8 +57,8 @@ int main(int argc, char** argv) try {
               by_springs / exact.work_per_cycle);
   std::printf("Eq. (12)    %.6e J   Eq. (12)/theorem %.5f\n", small, small / exact.work_per_cycle);
 
-  // 5. For the cone F'' is constant and Eq. (12) exact at any amplitude; for the paraboloid it is
-  //    the limit u_z → 0.
+  // 5. For the cone F'' is constant, and Eq. (12) is exact at any amplitude; for the paraboloid
+  //    Eq. (12) is the limit u_z → 0.
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -2,7 +2,7 @@
 # %% [markdown]
 # # The damping curve of a measured surface
 # An atomic-force scan of 256 × 256 points on 10 µm is pressed on steel and oscillates by 1 nm at 20 kHz, while it is sheared slowly.
-# Run it in the root of the tree, `python examples/10_damping_of_scan.py`, or name a file of your own after it.
+# Run `python examples/10_damping_of_scan.py` in the root of the tree, or add the name of your own file.
 
 # %%
 import math
@@ -34,7 +34,7 @@ print(
 
 # %% [markdown]
 # ## Damping constant at each load
-# Each value rests on contacts that are solved inside the oscillation, and has an error. Eq. (16) takes the fitted decay length instead.
+# Each value is computed from contacts that are solved inside the oscillation, and has an error. Eq. (16) uses the fitted decay length instead.
 
 # %%
 damping = salebra.surface_damping(surface, material, motion, curve)

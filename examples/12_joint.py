@@ -18,7 +18,7 @@ sliding_force = friction_coefficient * force
 
 # %% [markdown]
 # ## Loss over the tangential force
-# `joint_loss` is a quadrature. The exponential law has a closed form to compare it with (page *Theory*, section 8, *Joints*):
+# `joint_loss` computes a quadrature. It is compared with the closed form of the exponential law (page *Theory: friction*, *Joints*):
 # $W = \frac{8\mu^2}{g}lF\left[-(1-\frac q2)\ln(1-q)-q\right]$ with $q = T/\mu F$ and $g = G^*/E^*$.
 
 # %%
@@ -33,7 +33,7 @@ print(f"d ln W/d ln T rises from {losses[0].exponent:.2f} to {losses[-1].exponen
 
 # %% [markdown]
 # ## The loop
-# `TangentialContact` follows any path. Here the displacement goes to and fro twice at the indentation of the load.
+# `TangentialContact` follows any path. Here the displacement oscillates for two cycles at the indentation of the load.
 
 # %%
 amplitude = losses[-4].tangential_amplitude

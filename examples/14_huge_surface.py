@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
 # # A huge surface
-# `python examples/14_huge_surface.py 16384` makes and presses 268 million points in one process: three decades of wavelengths in one contact. The default is small.
+# `python examples/14_huge_surface.py 16384` makes and presses 268 million points in one process: the contact has three decades of wavelengths. The default is small.
 
 # %%
 import sys
@@ -14,7 +14,7 @@ import salebra
 n = int(sys.argv[1]) if len(sys.argv) == 2 else 256
 
 # %% [markdown]
-# ## Memory before anything is made
+# ## Forecast of the memory
 
 # %%
 size = 1e-3  # m
@@ -34,7 +34,7 @@ print(f"{100 * contact.contact_area_fraction:.1f} % of the area touches, {contac
 
 # %% [markdown]
 # ## A picture that fits a screen
-# Mean pressures of square blocks of cells.
+# The picture shows mean pressures of square blocks of cells.
 
 # %%
 block = max(1, n // 256)

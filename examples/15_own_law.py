@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
 # # A law of your own
-# Two ways from your data to damping: the profile of an indenter, and a measured force–indentation curve. Both give a contact law, and a law answers every question about damping.
+# This example computes damping from your data: from the profile of an indenter, and from a measured force–indentation curve. Both give a contact law, and a law is all that the damping functions need.
 
 # %%
 import math
@@ -18,8 +18,8 @@ force = 0.05  # N
 
 # %% [markdown]
 # ## An indenter from its profile
-# Heights over the radius, here of a ball of 1 mm with a worn cap; a profilometer gives such a table. The contact is solved by dimensionality reduction, whose only error is that of
-# the table.
+# The table lists heights over the radius, here of a ball of 1 mm with a worn cap; a profilometer gives such a table. The method of dimensionality reduction solves the contact exactly, so the only error is
+# the error of the table.
 
 # %%
 radii = np.linspace(0, 100e-6, 41)
@@ -31,7 +31,7 @@ print(f"damping constant {worn.damping_constant:.4g} N s/m of the worn ball, {ba
 
 # %% [markdown]
 # ## A curve from a load cell
-# Force over indentation, here computed from the new ball so that the answer is known. At least four samples around the range of the oscillation.
+# The curve gives force over indentation. Here it is computed from the new ball, so the result is known. The curve needs at least four samples around the range of the oscillation.
 
 # %%
 depth = np.geomspace(0.3e-6, 6e-6, 40)
@@ -42,7 +42,7 @@ measured = salebra.relaxation_damping(law, motion, force=force)
 print(f"from the curve {measured.damping_constant / ball.damping_constant:.3f} of that of the ball")
 
 # %% [markdown]
-# ## Which assumptions does the answer need?
+# ## Which assumptions does the result need?
 
 # %%
 parameters = salebra.ContactParameters(friction_coefficient=0.3, hardness=1e9, density=1200, excursion=1e-9)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 16_implicit_block — a block on a rough contact and on springs to the ground, under a load that
-// shakes it in three directions, by an implicit integrator that rejects steps: a contact element
-// gives forces and their derivatives for a step that is only tried.
+// 16_implicit_block — shakes a block on a rough contact and on springs to the ground in three
+// directions. The implicit integrator rejects steps, so the contact element returns forces and
+// their derivatives for a trial step without taking it.
 // Sample runs:  16_implicit_block        16_implicit_block 1e-3
 #include <Eigen/Dense>
 #include <cmath>
@@ -18,18 +18,18 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 int main(int argc, char** argv) try {
-  const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-2;  // of a step, of the decay length
+  const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-2;  // per step, over the decay length
 
-  // 1. The law, cut into levels once for all contacts that share it.
+  // 1. The law becomes a stack of springs once, for all contacts that share it.
   const double load = 10, decay_length = 100e-9, mass = 1, spring = 1e7;  // N, m, kg, N/m
   const ExponentialLaw law(load, decay_length,
                            Material::of_contact_modulus(115e9, 0.3).modulus_ratio());
-  const auto levels = std::make_shared<const LawSprings>(
+  const auto table = std::make_shared<const LawSprings>(
       law, -50e-9, 50e-9, LawSpringsOptions{.friction_coefficient = 0.3});
-  ContactElement contact(levels);
+  ContactElement contact(table);
   contact.start(0, 0, 0);
 
-  // 2. m a + f(q) + springs = load(t), q = (indentation, x, y).
+  // 2. The equation of motion is m a + f(q) + springs = load(t) with q = (indentation, x, y).
   const auto outside = [&](double time, const Vector3d& q) {
     const double angle = 2e4 * time;
     return Vector3d(load + 4 * std::sin(3 * angle), 2.5 * std::sin(angle) - spring * q[1],
@@ -40,7 +40,7 @@ int main(int argc, char** argv) try {
     return Vector3d(forces.normal_force, forces.tangential_force[0], forces.tangential_force[1]);
   };
 
-  // 3. The trapezoidal rule: Newton's method finds the end of a step, without taking it.
+  // 3. In the trapezoidal rule, Newton's method finds the end of a step before the step is taken.
   Vector3d q = Vector3d::Zero(), v = Vector3d::Zero();
   Vector3d a = (outside(0, q) - inside(contact.forces(0, 0, 0))) / mass;
   double time = 0, step = 1e-4;
@@ -61,8 +61,8 @@ int main(int argc, char** argv) try {
       end -= change;
       converged = change.norm() < 1e-10 * decay_length;
     }
-    // A step that does not converge, or goes far from what was predicted, is tried again: the
-    // contact has not moved.
+    // If a step does not converge, or ends far from the prediction, try a shorter one: the contact
+    // has not moved.
     const double error = (end - predicted).norm() / decay_length;
     if (!converged || error > tolerance) {
       step = now / 2, ++rejected;
@@ -75,7 +75,7 @@ int main(int argc, char** argv) try {
     if (error < tolerance / 8) step = now * 1.5;
   }
 
-  // 4. Shaken normally, the block slips and settles on its springs.
+  // 4. Because of the normal vibration the block slips and settles on its springs.
   std::printf("%d steps taken, %d rejected, %.1f iterations a step\n", taken, rejected,
               double(iterations) / (taken + rejected));
   std::printf("after 5 ms at x = %.2f nm, y = %.2f nm, indentation %.2f nm\n", 1e9 * q[1],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 17_granular_pair — rough spheres in a particle program: the sphere (Hertz) and its roughness (F =
-// F0 exp(δ/l)) in series as one law, and a pair function with a history, as pair styles of DEM
-// programs have it. Two spheres meet at an angle, and the contact takes energy from both motions.
+// 17_granular_pair — collides two rough spheres as a particle program does. One law puts the sphere
+// (Hertz) and its roughness (F = F0 exp(δ/l)) in series, and a pair function keeps a history, like
+// the pair styles of DEM programs. The spheres meet at an angle and lose energy of both motions.
 // Sample runs:  17_granular_pair        17_granular_pair 2 0.5
 #include <array>
 #include <cmath>
@@ -29,8 +29,8 @@ TabulatedLaw law_of_rough_spheres(double radius, const Material& material, doubl
   return TabulatedLaw(curve, material.modulus_ratio());
 }
 
-// What a pair style is called with: the overlap, how far the surfaces have moved past each other
-// since they met, and what it remembers of the pair. Forces are those on the first particle.
+// The arguments of a pair style: the overlap, the relative tangential displacement of the surfaces
+// since first contact, and the history of the pair. Returns the force on the first particle.
 std::array<double, 3> pair_force(double overlap, const std::array<double, 2>& shear,
                                  ContactElement& history) {
   const ElementForces forces = history.move_to(overlap, shear[0], shear[1]);
@@ -42,16 +42,16 @@ std::array<double, 3> pair_force(double overlap, const std::array<double, 2>& sh
 int main(int argc, char** argv) try {
   const double normal_speed = argc > 1 ? std::atof(argv[1]) : 0.5;      // m/s
   const double tangential_speed = argc > 2 ? std::atof(argv[2]) : 0.1;  // m/s
-  const double radius = 1e-3, density = 2500;                           // of both; effective R/2
+  const double radius = 1e-3, density = 2500;  // of each sphere; the effective radius is R/2
   const double mass = 4.0 / 3 * 3.14159265358979 * std::pow(radius, 3) * density / 2;
   const TabulatedLaw law =
       law_of_rough_spheres(radius / 2, Material::of_contact_modulus(35e9, 0.2), 1e-6, 30e-9, 1e3);
 
-  // One table of levels for all pairs of one kind; an element for each pair that touches.
-  const auto levels = std::make_shared<const LawSprings>(
+  // All pairs of one kind share a table of springs; each pair that touches has its own element.
+  const auto springs = std::make_shared<const LawSprings>(
       law, law.lowest_indentation(), law.highest_indentation(),
-      LawSpringsOptions{.friction_coefficient = 0.3, .intervals = 256});
-  ContactElement history(levels);
+      LawSpringsOptions{.friction_coefficient = 0.3, .springs = 256});
+  ContactElement history(springs);
 
   double overlap = history.state()[0], normal = normal_speed, shear = 0,
          tangential = tangential_speed;
@@ -61,7 +61,8 @@ int main(int argc, char** argv) try {
     overlap += dt * normal, shear += dt * tangential;
     const auto force = pair_force(overlap, {shear, 0}, history);
     normal -= dt * force[0] / mass;
-    // Two equal spheres that turn: 7/2 of the force goes into the motion of their surfaces.
+    // Two equal spheres that rotate: the force accelerates their surfaces 7/2 times as much as
+    // their centres.
     tangential += 3.5 * dt * force[1] / mass;
     largest = std::max(largest, force[0]), duration += dt;
   } while (overlap > out && duration < 1e-3);

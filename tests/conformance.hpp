@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <string>
 #include <vector>
 
@@ -81,7 +81,7 @@ inline void check_exchange(const Communicator& ranks) {
 
 inline void check_rows(const Communicator& ranks) {
   const Index rows = 100, ny = 5;
-  const RowPartition share(ranks, rows);
+  const RowPartition partition(ranks, rows);
   std::vector<double> mine;
   for (Index k = partition.begin() * ny; k < partition.end() * ny; ++k)
     mine.push_back(static_cast<double>(k));

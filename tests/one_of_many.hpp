@@ -48,8 +48,9 @@ class OneOfMany : public detail::Transport {
         exchanged.sent += static_cast<double>(sent.counts[rank]) * static_cast<double>(unit);
       }
       if (received.counts[rank] > 0)
-        std::memset(static_cast<char*>(to) + static_cast<std::size_t>(received.places[rank]) * unit,
-                    0, static_cast<std::size_t>(received.counts[rank]) * unit);
+        std::memset(
+            static_cast<char*>(to) + static_cast<std::size_t>(received.offsets[rank]) * unit, 0,
+            static_cast<std::size_t>(received.counts[rank]) * unit);
     }
   }
   std::shared_ptr<Transport> split(int) override {

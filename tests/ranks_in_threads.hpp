@@ -44,7 +44,7 @@ class Meeting {
     std::string name;  // with whatever must agree
     const void* from = nullptr;
     const std::int64_t* counts = nullptr;
-    const std::int64_t* places = nullptr;
+    const std::int64_t* offsets = nullptr;
     std::uint64_t bytes_sent = 0;
   };
 
@@ -128,24 +128,24 @@ class ThreadTransport : public detail::Transport {
 
   void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) override {
     std::string sizes;
-    std::vector<std::size_t> places;
+    std::vector<std::size_t> offsets;
     std::size_t place = 0;
     for (const std::size_t size : bytes) {
       sizes += ' ' + std::to_string(size);
-      places.push_back(place);
+      offsets.push_back(place);
       place += size;
     }
     meeting_->meet(rank_, {"gather of" + sizes, mine}, [&](const auto& calls) {
       for (const std::size_t from : shuffled())
         if (bytes[from] > 0)
-          std::memcpy(static_cast<char*>(all) + places[from], calls[from].from, bytes[from]);
+          std::memcpy(static_cast<char*>(all) + offsets[from], calls[from].from, bytes[from]);
     });
   }
 
   void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                 const Parts& received) override {
     Meeting::Call call{"exchange of units of " + std::to_string(unit), from, sent.counts.data(),
-                       sent.places.data()};
+                       sent.offsets.data()};
     meeting_->meet(rank_, call, [&](const auto& calls) {
       for (const std::size_t other : shuffled()) {
         const auto me = static_cast<std::size_t>(rank_);
@@ -157,9 +157,9 @@ class ThreadTransport : public detail::Transport {
         const auto bytes = static_cast<std::size_t>(received.counts[other]) * unit;
         if (bytes > 0)
           std::memcpy(
-              static_cast<char*>(to) + static_cast<std::size_t>(received.places[other]) * unit,
+              static_cast<char*>(to) + static_cast<std::size_t>(received.offsets[other]) * unit,
               static_cast<const char*>(calls[other].from) +
-                  static_cast<std::size_t>(calls[other].places[me]) * unit,
+                  static_cast<std::size_t>(calls[other].offsets[me]) * unit,
               bytes);
       }
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading of HDF5 files in a confined child process.
+// Reads HDF5 files in a confined child process.
 #include "confinement.hpp"
 
 #include <fcntl.h>
@@ -27,14 +27,14 @@
 namespace salebra::confinement {
 namespace {
 
-/// What precedes every piece on the pipe.
+/// Header of every block on the pipe.
 struct Header {
   enum Kind : std::uint64_t { data, refusal, failure, end };
   std::uint64_t kind, size;
 };
 constexpr std::size_t longest_refusal = 4096;
-/// How long a child may rest. It only reads a file and computes, so this is a disk that does not
-/// answer.
+/// How long a child may send nothing. It only reads a file and computes, so a longer pause means
+/// that the disk does not answer.
 constexpr std::chrono::seconds patience(60);
 
 /// --- The child. ---
@@ -60,7 +60,8 @@ void send_text(int pipe, Header::Kind kind, std::string_view text) {
   send(pipe, kind, std::as_bytes(std::span(text.substr(0, longest_refusal))));
 }
 
-/// Parts behind each other, with a zero between: no part has one.
+/// Sends the parts of the message of an InvalidInput, separated by zero bytes, which no part
+/// contains.
 void send_refusal(int pipe, const InvalidInput& refusal) {
   const std::string end(1, '\0');
   send_text(pipe, Header::refusal,
@@ -76,7 +77,7 @@ void limit(int resource, rlim_t most, rlim_t grace = 0) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-/// Bytes of address space that the process has; nothing where the system does not say.
+/// Bytes of address space of the process; empty if the system does not report them.
 std::optional<rlim_t> address_space() {
   std::FILE* const file = std::fopen("/proc/self/statm", "re");
   if (!file) return {};
@@ -87,7 +88,7 @@ std::optional<rlim_t> address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Descriptors of the parent are none of the child's business.
+/// Closes all descriptors that the child inherited from the parent, except a and b.
 void close_all_but(int a, int b) {
 #if defined(SYS_close_range)
   const auto close_range = [](int first, unsigned last) {
@@ -103,16 +104,17 @@ void close_all_but(int a, int b) {
 
 void confine(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // A program's own handlers would report the child's death as its own.
+  // Resets signal handlers of the parent program, which would report the death of the child as that
+  // of the program.
   for (const int sign :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM, SIGXCPU, SIGSYS, SIGPIPE, SIGCHLD})
     std::signal(sign, SIG_DFL);
-  // What a terminal sends to all of its processes is for the parent to judge.
+  // Ignores signals that a terminal sends to all processes of a program; the parent handles them.
   for (const int sign : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(sign, SIG_IGN);
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  // The C library would report memory errors on standard error.
+  // Redirects standard error, on which the C library would report memory errors.
   if (const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC); nowhere >= 0)
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
       if (standard != pipe && standard != reading.descriptor) dup2(nowhere, standard);
@@ -121,7 +123,8 @@ void confine(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NOFILE, 0);
   limit(RLIMIT_NPROC, 0);
-  limit(RLIMIT_CPU, reading.seconds, 1);  // at the upper limit the signal would be SIGKILL
+  // The hard limit is one second higher: reaching it sends SIGKILL instead of SIGXCPU.
+  limit(RLIMIT_CPU, reading.seconds, 1);
   if (present) limit(RLIMIT_AS, *present + reading.memory);
 }
 
@@ -162,7 +165,7 @@ class Child {
     }
   }
 
-  /// False where the child ended before it wrote so much.
+  /// Reads from the pipe. Returns false if the child ended before it wrote this number of bytes.
   bool receive(std::span<std::byte> bytes) {
     auto last = std::chrono::steady_clock::now();
     for (bool gone = false; !bytes.empty();) {
@@ -176,8 +179,8 @@ class Child {
       if (errno == EINTR) continue;
       if (errno != EAGAIN) return false;
       pollfd readable{pipe_, POLLIN, 0};
-      // Another process may have been forked while the pipe was open, and hold its end: the child's
-      // end is asked for too.
+      // Checks whether the child has ended: the pipe may stay open if another process, forked
+      // meanwhile, has inherited its write end.
       if (poll(&readable, 1, 200) == 0) gone = !is_there();
       rests_ = std::chrono::steady_clock::now() - last > patience;
       if (rests_) return false;
@@ -185,14 +188,15 @@ class Child {
     return true;
   }
 
-  /// What it died of; 0 where it did not die of a signal, or somebody else asked the system first.
+  /// The signal that ended the child; 0 if it ended without a signal, or if other code of the
+  /// process collected its status first.
   int end() {
-    // It has closed the pipe, which it does by ending; one that got HDF5 to do otherwise is ended
-    // by the destructor.
+    // Waits up to a second, since a child closes the pipe by ending. A malicious file may have made
+    // HDF5 close the pipe earlier; then the destructor ends the child.
     for (int i = 0; i < 100 && is_there(); ++i) usleep(10'000);
     return WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
   }
-  /// Whether receive() gave up waiting for it.
+  /// Whether receive() gave up, because the child sent nothing for too long.
   bool rests() const { return rests_; }
 
  private:
@@ -205,7 +209,8 @@ class Child {
     do {
       ended = waitpid(process_, &status_, options);
     } while (ended < 0 && errno == EINTR);
-    // Where SIGCHLD is ignored, the system forgets a child as soon as it has ended.
+    // If the program ignores SIGCHLD, the system forgets the status of a child as soon as it has
+    // ended.
     if (ended != 0) process_ = -1;
     if (ended < 0) status_ = 0;
   }
@@ -249,7 +254,7 @@ InvalidInput refusal_of(std::string_view text) {
 void run_confined(const Hdf5Reading& reading) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) refuse_unread(reading, errno);
-  fcntl(ends[0], F_SETPIPE_SZ, 1 << 20);  // fewer turns where it is granted
+  fcntl(ends[0], F_SETPIPE_SZ, 1 << 20);  // a larger pipe needs fewer reads
   const std::optional<rlim_t> present = address_space();
   pid_t process = -1;
   int error = EAGAIN;

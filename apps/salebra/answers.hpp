@@ -3,16 +3,16 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/law/fit.hpp>  // a fit has one face, and is no problem
+#include <salebra/contact/law/fit.hpp>  // analysis/ has no problem for fits
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <string>
 #include <vector>
 
-/// What commands answer beside the structs of the library.
+/// Described structs of which commands make their answers and that the library does not have.
 namespace salebra::cli {
 
 struct ContactPressures {
-  double pressure = 0, max_pressure = 0;  ///< nominal and largest, Pa
+  double pressure = 0, max_pressure = 0;  ///< nominal and largest contact pressure, Pa
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ContactPressures>) {
@@ -26,7 +26,7 @@ constexpr void describe(auto&& visit, std::type_identity<ContactPressures>) {
 struct SurfacePoints {
   bool periodic = false;
   Index undefined_points = 0, filled_points = 0;
-  double mean = 0;  ///< m
+  double mean = 0;  ///< mean height, m
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SurfacePoints>) {
@@ -40,9 +40,10 @@ constexpr void describe(auto&& visit, std::type_identity<SurfacePoints>) {
   visit(&S::mean, Quantity{"mean", length, "mean height"});
 }
 
-/// A bearing curve at each percent of the surface.
+/// A bearing curve: at each percent of the area, the height above which this part of the surface
+/// lies.
 struct BearingTable {
-  std::vector<double> area_fraction, height;  ///< 1, m
+  std::vector<double> area_fraction, height;  ///< 1 and m
 };
 
 constexpr void describe(auto&& visit, std::type_identity<BearingTable>) {
@@ -52,7 +53,7 @@ constexpr void describe(auto&& visit, std::type_identity<BearingTable>) {
   visit(&S::height, Quantity{"height", length, "height"});
 }
 
-/// A stretched surface, and the correlation lengths where it has them, m.
+/// Anisotropy of a surface, with its correlation lengths in m if they are known.
 struct Lay : Anisotropy {
   std::optional<double> correlation_length, correlation_length_along, correlation_length_across;
 };
@@ -68,19 +69,19 @@ constexpr void describe(auto&& visit, std::type_identity<Lay>) {
         Quantity{"correlation_length_across", length, "correlation length across the lay"});
 }
 
-/// l for each way to weight the loads, m.
+/// Decay length l of a curve for three ways to weight its loads, m.
 struct DecayLengths {
   double spacing = 0, equal = 0, force = 0;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DecayLengths>) {
   using S = DecayLengths;
-  visit(&S::spacing, Kept{"spacing", "by the gap that each stands for"});
-  visit(&S::equal, Kept{"equal", "all alike"});
-  visit(&S::force, Kept{"force", "by the square of the force"});
+  visit(&S::spacing, Kept{"spacing", "weighted by the range of gap of each sample"});
+  visit(&S::equal, Kept{"equal", "equal weights"});
+  visit(&S::force, Kept{"force", "weighted by the square of the force"});
 }
 
-/// What a fit owes to its weights and its window.
+/// How the decay length depends on the weights and on the window of the fit.
 struct FitChoices {
   FitWeights weights = FitWeights::spacing;
   DecayLengths decay_length_by_weights;
@@ -90,7 +91,7 @@ struct FitChoices {
 constexpr void describe(auto&& visit, std::type_identity<FitChoices>) {
   using enum Dimension;
   using S = FitChoices;
-  visit(&S::weights, Quantity{"weights", dimensionless, "what a sample counts"});
+  visit(&S::weights, Quantity{"weights", dimensionless, "weight of a sample"});
   visit(&S::decay_length_by_weights, Quantity{"decay_length_by_weights", length,
                                               "decay length for each way to weight the loads"});
   visit(&S::window_sensitivity, Part{"window_sensitivity", "fits to parts of the window"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options and answers of the assumptions behind a damping constant.
+// Options and answers for the assumptions of a damping constant.
 #include "assumption_options.hpp"
 
 #include <fmt/format.h>
@@ -17,15 +17,16 @@
 namespace salebra::cli {
 namespace {
 
-/// The option that gives a fact.
+/// The option that sets a contact parameter, as JSON text; the parameter is named as in the
+/// library.
 Json option_of(const std::string& parameter) {
   std::string option = "--" + given_as(parameter);
   std::ranges::replace(option, '_', '-');
   return option;
 }
 
-/// The largest motions of the first case that could be judged.
-const std::vector<LargestMotion>& any_max(const std::vector<Assumptions>& cases) {
+/// The largest motions without slip, of the first case for which they are known.
+const std::vector<MaxMotion>& any_max(const std::vector<Assumptions>& cases) {
   const auto judged =
       std::ranges::find_if(cases, [](const Assumptions& p) { return !p.largest.empty(); });
   return judged == cases.end() ? cases.front().largest : judged->largest;
@@ -36,28 +37,29 @@ const std::vector<LargestMotion>& any_max(const std::vector<Assumptions>& cases)
 void AssumptionOptions::add_to(Command& command, bool excursion_judged) {
   const std::string group = "Assumptions";
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
-               "of the two bodies, by which slip is followed or judged")
+               "Coulomb coefficient of friction, used to compute slip or to check for it")
       ->group(group);
   add_quantity(command, "--hardness", hardness, Dimension::pressure,
-               "of the softer body. A surface is first loaded to its largest pressure, with local "
-               "pressures up to the hardness, and the results are those of the unloading curve; a "
-               "law is only judged by it")
+               "hardness of the softer body. A surface is first loaded to its largest pressure, "
+               "with local pressures up to the hardness, and the results are those of the "
+               "unloading curve; with a law it only serves to check for yielding")
       ->group(group);
   add_quantity(command, "--density", density, Dimension::mass_density,
-               "of the elastic body, to judge inertia")
+               "mass density of the elastic body, to check for inertia")
       ->group(group);
   if (!excursion_judged) return;
   add_quantity(command, "--excursion", excursion, Dimension::length,
-               "of the slow motion from one turning point to the other, to judge slip of what "
-               "stays in contact")
+               "distance of the slow motion from one turning point to the other, to compute slip "
+               "or to check for it")
       ->group(group);
 }
 
 ContactParameters AssumptionOptions::parameters(const MaterialOptions& material,
-                                   const std::optional<double>& followed) const {
+                                                const std::optional<double>& followed) const {
   ContactParameters parameters;
-  for (const auto& [option, value, fact] :
-       {std::tuple{"--friction-coefficient", &friction_coefficient, &parameters.friction_coefficient},
+  for (const auto& [option, value, parameter] :
+       {std::tuple{"--friction-coefficient", &friction_coefficient,
+                   &parameters.friction_coefficient},
         std::tuple{"--hardness", &hardness, &parameters.hardness},
         std::tuple{"--density", &density, &parameters.density},
         std::tuple{"--excursion", &excursion, &parameters.excursion}}) {
@@ -73,17 +75,19 @@ ContactParameters AssumptionOptions::parameters(const MaterialOptions& material,
   if (material.contact_modulus || !material.young.empty())
     parameters.contact_modulus = material.material().contact_modulus;
   if (material.young.size() == 2 && material.poisson.size() == 2)
-    parameters.dundurs = std::numbers::pi * parameters.contact_modulus * material.coupling_constant();
+    parameters.dundurs =
+        std::numbers::pi * parameters.contact_modulus * material.coupling_constant();
   return parameters;
 }
 
 std::vector<AssumptionVerdict> AssumptionReport::all_verdicts() const {
   std::vector<AssumptionVerdict> all = verdicts_of(cases, slip_followed, pressures);
-  // The loss of another body than the one judged is known without slip alone.
+  // If the assumptions were checked for another body than that of the answer, the loss is only
+  // known without slip, and the advice must not name slip.
   if (!body.empty())
     for (AssumptionVerdict& one : all)
       if (!one.remedy.empty() && one.name.starts_with("slip_of"))
-        one.remedy = "a smaller motion; slip is not followed here";
+        one.remedy = "reduce the motion; slip is not computed here";
   return all;
 }
 
@@ -113,21 +117,21 @@ void AssumptionReport::add_to(Json& answer) const {
     one["needs"] = lacking == assumptions.end() ? Json() : option_of(lacking->needs);
   }
   if (!body.empty()) answer["assumptions_of"] = body;
-  const std::vector<LargestMotion>& judged = any_max(cases);
+  const std::vector<MaxMotion>& largest = any_max(cases);
   const bool known =
       std::ranges::any_of(cases, [](const Assumptions& p) { return p.regime != Regime::unknown; });
-  if (known || !judged.empty())
+  if (known || !largest.empty())
     answer["regime"] = column([](const Assumptions& p) -> Json {
       return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
     });
-  Json& largest = answer["max_motion"] = Json::array();
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    std::vector<LargestMotion> motions;
+  Json& described = answer["max_motion"] = Json::array();
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    std::vector<MaxMotion> motions;
     for (const Assumptions& p : cases)
-      motions.push_back(p.largest.empty() ? LargestMotion{} : p.largest[i]);
+      motions.push_back(p.largest.empty() ? MaxMotion{} : p.largest[i]);
     Json one = of_cases(motions);
-    one["friction_coefficient"] = judged[i].friction_coefficient;
-    largest.push_back(std::move(one));
+    one["friction_coefficient"] = largest[i].friction_coefficient;
+    described.push_back(std::move(one));
   }
 }
 
@@ -145,7 +149,7 @@ std::string AssumptionReport::text() const {
   if (const std::string regimes = regimes_in_words(cases, pressures);
       !regimes.empty() && warning().empty())
     text += wrapped("Regime: " + regimes + "\n", text_width());
-  if (!body.empty()) text += "The verdicts are those of the " + body + "\n";
+  if (!body.empty()) text += "The assumptions were checked for the " + body + "\n";
   return text;
 }
 

@@ -9,34 +9,36 @@
 
 namespace salebra::cli {
 
-/// What the assumptions of a damping constant need beyond contact and motion.
+/// Options for the contact parameters with which the assumptions of a damping constant are checked.
 struct AssumptionOptions {
   std::optional<double> friction_coefficient, hardness, density, excursion;
 
-  /// excursion_judged: offers --excursion, for commands that judge slip.
+  /// excursion_judged: whether to add --excursion, for commands that check for slip.
   void add_to(Command& command, bool excursion_judged = true);
-  /// Throws InvalidInput for values that are not > 0. followed: the --friction of a command that
-  /// follows it, which is the same coefficient.
+  /// The contact parameters given by the options. Throws InvalidInput for values that are not > 0.
+  /// followed: the coefficient of friction of --friction, if a command simulates slip with it; it
+  /// is also used to check for slip.
   ContactParameters parameters(const MaterialOptions& material,
-                     const std::optional<double>& followed = {}) const;
+                               const std::optional<double>& followed = {}) const;
 };
 
-/// The assumptions of an answer: of one case, or of a list of them.
+/// The assumptions of an answer, checked for one case or a list of cases.
 struct AssumptionReport {
   std::vector<Assumptions> cases = {};
   bool list = false;
-  std::vector<double> pressures = {};  ///< of the cases of a study, Pa
-  std::string body = {};               ///< that was judged, where it is not the one of the answer
-  bool slip_followed = false;          ///< the loss is that with slip
+  std::vector<double> pressures = {};  ///< pressure of each case of a study, Pa
+  /// Name of the body that was checked, if it is not that of the answer.
+  std::string body = {};
+  bool slip_followed = false;  ///< whether the loss includes slip
 
-  /// Adds the keys `validity`, `verdicts`, `assumptions`, `max_motion` and, where it is known or
-  /// was looked for, `regime`; of another body `assumptions_of`.
+  /// Adds the keys `validity`, `verdicts`, `assumptions` and `max_motion`; `regime` if it is known
+  /// or was requested; `assumptions_of` if another body was checked than that of the answer.
   void add_to(Json& answer) const;
-  /// Stands above the numbers of a contact that slides as a whole, and says so; else empty.
+  /// A warning to print above the numbers if a contact slides as a whole; otherwise empty.
   std::string warning() const;
-  /// The verdict and the verdicts behind it, to stand below the answer.
+  /// The overall verdict and the line of each assumption, to print below the answer.
   std::string text() const;
-  /// The answer with its assumptions, as JSON or text.
+  /// Prints the answer with its assumptions, as JSON or text.
   void answer(Session& session, Json object, const std::string& text) const;
   void answer(Session& session, Json object) const;
 

@@ -28,7 +28,7 @@ std::string limits(const EnsembleMean& estimate) {
   return interval(estimate, Dimension::dimensionless, 3);
 }
 
-/// "0.42 ± 0.01", half the width of the interval.
+/// Formats an estimate as "0.42 ± 0.01", where 0.01 is half the width of its interval.
 std::string with_error(const EnsembleMean& estimate, double scale = 1) {
   if (std::isnan(estimate.mean)) return "n/a";
   if (std::isnan(estimate.low)) return fmt::format("{:.3g}", scale * estimate.mean);
@@ -44,8 +44,7 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
   for_each_number<ModelResult>([&](const auto&, const Quantity& quantity) {
     answer[std::string(quantity.name)] = to_json(result.fitted(quantity.name, model.id));
   });
-  answer["damping"] = columns_json<DampingPoint>(
-      [&](const auto& number) { return result.damping(number, model.id); });
+  answer["damping"] = damping_columns(result, model.id);
   for (const auto& [name, ratios] : result.comparison(model.id))
     answer["over_bem"][name] = to_json(ratios);
   return answer;
@@ -54,7 +53,8 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
 Json comparison_json(const StudyResult& result, const StudySolution& found) {
   const StudyTheories theories = result.theories();
   Json theory = answer_json(theories);
-  theory.erase("relative_pressure");  // an axis of the whole answer
+  // `relative_pressure` is already the coordinate of the whole answer.
+  theory.erase("relative_pressure");
   const auto& stiffness = theories.normal_stiffness;
   theory["campana_persson_muser"] = {
       {"decay_length_over_rms_height", to_json(theories.decay_length_over_rms_height)},
@@ -74,8 +74,8 @@ Json comparison_json(const StudyResult& result, const StudySolution& found) {
   return answer;
 }
 
-/// At most `count` of the pressures, evenly spread, and only those for which the boundary elements
-/// have a damping.
+/// Indices of at most `count` pressures, evenly spread over those at which boundary elements have a
+/// damping constant.
 std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t count) {
   const auto damping = result.damping(&DampingPoint::work_per_cycle_without_slip);
   std::vector<std::size_t> known, shown;
@@ -174,7 +174,7 @@ std::string damping_table(const StudyResult& result, const StudySolution& found)
          to_table(rows, 2, true);
 }
 
-/// What draws the surfaces apart, by the models that adhere.
+/// Table of the pull-off pressures of the adhesive models.
 std::string pull_off_table(const StudyResult& result) {
   std::vector<std::vector<std::string>> rows{{"model", "pull-off", "95 % interval"}};
   for (const StudyModel& model : result.models()) {
@@ -192,8 +192,8 @@ std::string comparison_text(const StudyResult& result, const StudySolution& foun
   if (result.configuration.adhesion)
     return contact + pull_off_table(result) + ensemble_warnings(result);
   const AssumptionReport assumptions = assumptions_of(found, result);
-  return contact + assumptions.warning() + damping_table(result, found) + "\n" + assumptions.text() +
-         "\n" + ensemble_warnings(result);
+  return contact + assumptions.warning() + damping_table(result, found) + "\n" +
+         assumptions.text() + "\n" + ensemble_warnings(result);
 }
 
 struct CompareArguments {
@@ -211,7 +211,7 @@ void run(const CompareArguments& arguments, Session& session) {
   });
 }
 
-/// "gw_moments, gw_deterministic, … and persson".
+/// Names of all models except boundary elements: "gw_moments, gw_deterministic, … and persson".
 std::string other_models() {
   std::vector<std::string_view> names;
   for (const StudyModel& model : contact_models().subspan(1)) names.emplace_back(model.name);
@@ -231,9 +231,9 @@ void add_compare_command(Program& program) {
       "force over gap, area, stiffness and damping of all models, with bands", study_output);
   arguments->study.add_to(command, false);
   command
-      .add_option(
-          "--models", arguments->models,
-          "those to compare with the boundary elements, of " + other_models() + "; default: all")
+      .add_option("--models", arguments->models,
+                  "models to compare with the boundary elements: any of " + other_models() +
+                      "; default: all")
       ->delimiter(',')
       ->type_name("NAME,...");
 }

@@ -79,7 +79,7 @@ std::string zsh_text(std::string_view text) {
 }
 
 std::string zsh_argument(const Option& option) {
-  // A number has nothing to complete, which a blank says.
+  // A blank tells zsh that there is nothing to complete.
   std::string action = option.positional() || option.type_name() == "FILE" ? "_files" : " ";
   if (!option.choices().empty()) action = fmt::format("({})", fmt::join(option.choices(), " "));
   if (option.positional())
@@ -135,7 +135,7 @@ void write_script(const std::string& text, Session& session) {
 void add_completion_command(Program& program) {
   auto name = std::make_shared<std::string>();
   Command& command = program.add_command(
-      "completion", "the script with which a shell completes commands and options",
+      "completion", "print a script with which a shell completes commands and options",
       {"salebra completion bash -o ~/.local/share/bash-completion/completions/salebra",
        "salebra completion zsh"},
       [name, &program](Session& session) {

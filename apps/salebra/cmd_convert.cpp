@@ -20,7 +20,7 @@ struct ConvertArguments {
 
 void run(ConvertArguments& arguments, Session& session) {
   require(!session.has_output(), "--output", session.output().string(),
-          "is not for this command; name the new file as its second argument");
+          "is not an option of convert; name the new file as its second argument");
   require_surface_name(arguments.to);
   require_output(arguments.to, session.write_options());
   if (arguments.surface.detrend.empty()) arguments.surface.detrend = "none";

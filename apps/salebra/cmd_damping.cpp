@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra damping`: loss per cycle of a contact under an oscillation, and the damper that it is.
+// `salebra damping`: energy loss of an oscillating contact in a cycle, and the contact as a damper.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,15 +8,15 @@
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr/adhesive_indenter.hpp>  // closed forms, which are no problem
+#include <salebra/contact/mdr/adhesive_indenter.hpp>  // analysis/ has no problem for it
 #include <salebra/io/result_file.hpp>
 
+#include "assumption_options.hpp"
 #include "damping_maps.hpp"
 #include "figures.hpp"
 #include "io/number_table.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
@@ -38,7 +38,8 @@ struct DampingArguments {
   MapOptions maps;
   BodyOptions body;
 
-  /// Whether the motion is slow and tangential: its damping constant does not depend on its speed.
+  /// Whether the command computes the contact as a damper: with a body, or for a slow drag whose
+  /// velocity is not given, since the damping constant does not depend on it.
   bool of_damper() const {
     const auto& amplitudes = motion.normal_amplitude;
     return body.given() || (motion.mode == "drag" && force_amplitude.empty() &&
@@ -53,7 +54,7 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
   require(arguments.motion.normal_amplitude.empty(), "--force-amplitude",
           arguments.force_amplitude.front(),
           "is given together with --normal-amplitude; give one of them");
-  // The library takes the amplitude of the force in its place.
+  // With a force amplitude the library does not use the normal amplitude.
   MotionOptions motion = arguments.motion;
   motion.normal_amplitude = {0};
   return motion.all_motions();
@@ -63,12 +64,12 @@ ContactProblem contact_of(const DampingArguments& arguments, Session& session) {
   return arguments.law.problem(arguments.material, session, arguments.assumptions.hardness);
 }
 
-// --trajectory: one period of (time, indentation, displacement).
+// --trajectory: a file with one period of time, indentation and displacement.
 void follow_file(const DampingArguments& arguments, Session& session) {
   require(!arguments.motion.given() && arguments.force_amplitude.empty() &&
               !arguments.of_damper() && !arguments.maps.given(),
           "--trajectory", arguments.trajectory,
-          "is the motion; leave out the options of Motion, Use and Maps");
+          "gives the motion; leave out the options under Motion, Damper and Maps");
   const auto columns =
       read_number_table(arguments.trajectory,
                         {{"time", Dimension::time, {"t"}},
@@ -102,20 +103,22 @@ void follow_file(const DampingArguments& arguments, Session& session) {
   }
   session.plot(cycle_figure(path, answer.loss));
   AssumptionReport{.cases = {answer.assumptions},
-                .slip_followed = arguments.assumptions.friction_coefficient.has_value()}
+                   .slip_followed = arguments.assumptions.friction_coefficient.has_value()}
       .answer(session, json_of(answer.loss));
 }
 
-// An indenter that adheres: by JKR, and a paraboloid whose range is known by all closed forms.
+// An adhesive indenter at rest: by the theory of JKR and, for a paraboloid with a known range of
+// adhesion, by all closed forms.
 void answer_adhesion(const DampingArguments& arguments, Session& session) {
   const auto body = std::get<IndenterContact>(contact_of(arguments, session));
   const IndenterProfile& profile = *body.profile;
   const double modulus = body.material.contact_modulus, work = *arguments.work_of_adhesion;
   require_positive(work, "--work-of-adhesion");
-  require_that(!profile.has_side(), "--law",
-               "of a flat face sticks with all of it, whatever the force; give another shape");
-  require(body.at.values.size() == 1, "--normal-force", body.at.values.size(),
-          "operating points are given; a contact at rest takes one");
+  require_that(
+      !profile.has_side(), "--law",
+      "has a flat face, which adheres with its whole area at any force; choose another shape");
+  require(body.at.values.size() == 1, "--" + option_word(body.at.control), body.at.values.size(),
+          "values given; a contact at rest takes one");
   const auto shown = [](const AdhesivePoint& point) {
     Json json = json_of(point);
     if (!std::isfinite(point.zone_radius)) json.erase("zone_radius");
@@ -136,7 +139,8 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
                             jkr_pull_off(profile, modulus, work))}};
   if (arguments.adhesion_range) {
     require(arguments.law.indenter.law == "paraboloid", "--adhesion-range",
-            *arguments.adhesion_range, "is of a paraboloid; leave it out with other shapes");
+            *arguments.adhesion_range,
+            "applies only to a paraboloid; leave it out with other shapes");
     const double radius = *arguments.law.indenter.radius, range = *arguments.adhesion_range;
     const MaugisDugdale model(radius, modulus, work, range);
     const double tabor = tabor_parameter(radius, modulus, work, range);
@@ -149,7 +153,7 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
   session.answer(answer);
 }
 
-// An indenter without a motion.
+// Answers with the state of an indenter that does not move.
 void answer_at_rest(const DampingArguments& arguments, Session& session) {
   arguments.law.at.require_one("a contact at rest takes one, and damping needs a motion");
   const ContactSolution contact = solve(contact_of(arguments, session), session.context());
@@ -162,16 +166,18 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
   session.answer(object);
 }
 
-// One period of a single case that a picture can show; nothing for a motion that never repeats.
+// Draws one period of the motion if there is a single case; draws nothing for a motion without a
+// period.
 void plot_case(const DampingArguments& arguments, const DampingSolution& answer, Session& session) {
   if (!session.has_plot()) return;
   require_that(arguments.force_amplitude.empty(), "--plot",
-               "one case of --force-amplitude has no picture; give it as a range");
+               "cannot draw a single value of --force-amplitude; give a range");
   const bool slips = arguments.assumptions.friction_coefficient.has_value();
-  const DampingCycle cycle = cycle_of(
-      *answer.contact.law, answer.motions.front(), answer.results.front().indentation,
-      slips ? arguments.steps : 1000,
-      arguments.assumptions.friction_coefficient.value_or(ContactParameters::unknown), session.context());
+  const DampingCycle cycle =
+      cycle_of(*answer.contact.law, answer.motions.front(), answer.results.front().indentation,
+               slips ? arguments.steps : 1000,
+               arguments.assumptions.friction_coefficient.value_or(ContactParameters::unknown),
+               session.context());
   session.plot(cycle_figure(cycle.path, cycle.loss));
 }
 
@@ -193,18 +199,20 @@ void lose(const DampingArguments& arguments, Session& session) {
     require(motions.size() == 1 && arguments.force_amplitude.empty() &&
                 arguments.motion.mode != "two-frequencies",
             "--surface", arguments.law.surface.file,
-            "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
+            "takes one motion, drag or equal-frequency; give several values of --pressure, or a "
+            "--curve");
   problem.contact = contact_of(arguments, session);
   const DampingSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.warnings);
   session.warn(answer.warnings);
   const bool one = values.empty();
   if (one && !answer.periods.empty() && answer.periods.front().normal_cycles == 0)
-    session.inform("the frequencies have no common period: power is the mean over a long time");
+    session.inform(
+        "the two frequencies have no common period: the power is a mean over a long time");
   Json object = Json::object();
   if (!one) object[quantity] = values;
   object.add(answer_json(answer, answer.contact.nominal_area()));
-  // Without friction the numbers without slip repeat those above them.
+  // Without friction the losses without slip equal the other losses, so they are left out.
   if (!arguments.assumptions.friction_coefficient)
     for (const char* name : {"work_per_cycle_without_slip", "damping_constant_without_slip",
                              "damping_constant_without_slip_error"})
@@ -220,14 +228,14 @@ void lose(const DampingArguments& arguments, Session& session) {
   }
   const bool slips = std::ranges::any_of(
       answer.results, [](const DampingResult& result) { return !std::isnan(result.slip_work); });
-  AssumptionReport{.cases = answer.assumptions, .list = !one, .slip_followed = slips}.answer(session,
-                                                                                       object);
+  AssumptionReport{.cases = answer.assumptions, .list = !one, .slip_followed = slips}.answer(
+      session, object);
   if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
                                    answer.results.size()));
 }
 
-// The fields of a map that this answer has.
+// Names and fields of the map that this solution has.
 std::vector<std::pair<std::string, const Field*>> fields_of(const DamperSolution& answer) {
   std::vector<std::pair<std::string, const Field*>> fields;
   for (const auto& [name, field] :
@@ -260,8 +268,8 @@ void write_map(const DamperSolution& answer, const std::optional<double>& fallin
   file.commit();
 }
 
-// γ: a number, a row over the one quantity that varies, or rows over frequencies for each
-// amplitude.
+// The damping constants of a map: a number, a list over the one quantity that varies, or for each
+// amplitude a list over the frequencies.
 Json constants(const Field& map) {
   Json rows = Json::array();
   for (Index i = 0; i < map.rows(); ++i) {
@@ -272,9 +280,8 @@ Json constants(const Field& map) {
   return rows.size() == 1 ? rows[0] : rows;
 }
 
-// For people, a map is a row for each pair of amplitude and frequency: in one table with the list
-// of amplitudes and that of frequencies, each amplitude would stand beside a frequency it has
-// nothing to do with.
+// The text of a map has a row for each pair of amplitude and frequency. to_text() would print the
+// list of amplitudes and the list of frequencies side by side, as if their rows belonged together.
 std::string text_of(const Json& answer, const DamperSolution& found) {
   const DamperMap& map = found.map;
   Json pairs = Json::array();
@@ -296,14 +303,14 @@ DamperProblem damper_problem(const DampingArguments& arguments) {
   const MotionOptions& motion = arguments.motion;
   require_that(motion.mode == "drag" && arguments.force_amplitude.empty(),
                arguments.force_amplitude.empty() ? "--mode" : "--force-amplitude",
-               "given, but a damper is one of slow tangential motions, with --normal-amplitude");
+               "given, but a damper needs slow shear (--mode drag) with --normal-amplitude");
   for (const auto& [option, values] :
        {std::pair("--tangential-amplitude", &motion.tangential_amplitude),
         {"--phase", &motion.phase},
         {"--tangential-frequency", &motion.tangential_frequency}})
     require_that(values->empty(), option, "given, but --mode drag has none; leave it out");
   require(motion.drag_velocity.size() < 2, "--drag-velocity", motion.drag_velocity.size(),
-          "values are given; a damper takes one");
+          "values given; a damper takes one");
   arguments.law.at.require_one("a damper takes one");
   DamperProblem problem{.normal_amplitude = motion.normal_amplitude,
                         .angular_frequency = motion.frequency.angular(),
@@ -325,13 +332,13 @@ DamperProblem damper_problem(const DampingArguments& arguments) {
 }
 
 void damp(const DampingArguments& arguments, Session& session) {
-  require_that(!arguments.maps.given(), "--stress-map", "and --friction-map are of one motion");
+  require_that(!arguments.maps.given(), "--stress-map", "and --friction-map need a single motion");
   if (!arguments.motion.frequency.given()) require_options({"--frequency"}, "a damper");
   DamperProblem problem = damper_problem(arguments);
   const std::vector<double> amplitudes = problem.normal_amplitude,
                             omega = problem.angular_frequency;
   require(!amplitudes.empty() || !session.has_output(), "--output", session.output().string(),
-          "is for a map over --normal-amplitude and --frequency");
+          "needs a map; give --normal-amplitude and --frequency");
   problem.contact = contact_of(arguments, session);
   const DamperSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.warnings);
@@ -346,16 +353,17 @@ void damp(const DampingArguments& arguments, Session& session) {
   if (session.has_plot()) {
     const Figure figure = damper_figure(answer, arguments.body.falling_slope, omega);
     require_that(!figure.panels.empty(), "--plot",
-                 "one number is no picture; give a range, --mass, or --falling-slope with several "
-                 "frequencies");
+                 "there is only one number to draw; give a range, --mass, or --falling-slope with "
+                 "several frequencies");
     session.plot(figure);
   }
   const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
   const std::string text = pairs ? text_of(object, answer) : to_text(object);
   if (answer.assumptions.empty()) return session.answer(object, text);
-  AssumptionReport{.cases = answer.assumptions,
-                .list = amplitudes.size() > 1,
-                .slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all()}
+  AssumptionReport{
+      .cases = answer.assumptions,
+      .list = amplitudes.size() > 1,
+      .slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all()}
       .answer(session, object, text);
 }
 
@@ -367,9 +375,9 @@ void run(const DampingArguments& arguments, Session& session) {
                      arguments.trajectory.empty() && !arguments.body.given() &&
                      !arguments.maps.given() && arguments.law.of_indenter(),
                  "--work-of-adhesion",
-                 "is of an indenter at rest: in a motion with adhesion, points may be released in "
-                 "another order than they were pressed, for which no loss is known here; leave out "
-                 "one of them");
+                 "applies only to an indenter at rest: in a motion with adhesion points may "
+                 "separate in another order than they touched, and then the loss is not known; "
+                 "leave out this option or the motion");
     return answer_adhesion(arguments, session);
   }
   if (!arguments.trajectory.empty()) return follow_file(arguments, session);
@@ -385,45 +393,49 @@ void run(const DampingArguments& arguments, Session& session) {
 void add_damping_command(Program& program) {
   auto arguments = std::make_shared<DampingArguments>();
   Command& command = program.add_command(
-      "damping", "what an oscillating contact loses, and how it damps",
+      "damping", "energy loss and damping of an oscillating contact",
       {"salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
        "1:20nm:8 --drag-velocity 100nm/s --frequency 20kHz --plot damping.png",
        "salebra damping --law sphere --radius 10mm --indentation 1um --contact-modulus 1GPa "
        "--poisson 0.3 --mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm "
        "--phase 60deg --friction-coefficient 0.3"},
       [arguments](Session& session) { run(*arguments, session); },
-      "the map that is asked for, the loss or damping constant over the quantity that is a range, "
-      "one period of a single motion, or the contact at rest");
+      "the map, the loss or damping constant over the quantity given as a range, one period of a "
+      "single motion, or the contact at rest");
   arguments->law.add_to(command);
   arguments->motion.add_to(command, true);
   const std::string normal = "Normal motion";
-  add_values(command, "--force-amplitude", arguments->force_amplitude, Dimension::force,
-             "F_a of a force-controlled motion F + F_a cos wt, instead of --normal-amplitude")
+  add_values(
+      command, "--force-amplitude", arguments->force_amplitude, Dimension::force,
+      "amplitude F_a of a force-controlled motion F + F_a cos wt, instead of --normal-amplitude")
       ->group(normal);
   add_choice<Amplitude>(command, "--amplitude", arguments->amplitude,
-                        "of the normal oscillation; default finite")
+                        "finite normal amplitude, or the limit of a small one; default finite")
       ->group(normal);
   add_choice<Hold>(command, "--hold", arguments->hold,
-                   "what stays in the mean; default indentation")
+                   "which mean value the oscillation keeps; default indentation")
       ->group(normal);
   const std::string path = "Measured motion, and steps";
   const std::string adhesion = "Adhesion, of an indenter at rest";
   add_quantity(command, "--work-of-adhesion", arguments->work_of_adhesion,
-               Dimension::energy_per_area, "w: contact and pull-off by JKR; a force may pull")
+               Dimension::energy_per_area,
+               "work of adhesion w: contact and pull-off by JKR; a force may pull")
       ->group(adhesion);
   add_quantity(command, "--adhesion-range", arguments->adhesion_range, Dimension::length,
-               "of a paraboloid: also by DMT and Maugis-Dugdale, and which of them suits")
+               "range of the tension on a paraboloid: adds DMT and Maugis-Dugdale, and which of "
+               "the theories applies")
       ->group(adhesion);
   command
-      .add_option("--trajectory", arguments->trajectory,
-                  "one period from a file of time, indentation, x and, without slip, y (SI)")
+      .add_option(
+          "--trajectory", arguments->trajectory,
+          "file with one period of the motion: time, indentation, x and, without slip, y (SI)")
       ->file(FileUse::input)
       ->group(path);
-  add_steps(command, arguments->steps, "straight steps a cycle where slip is followed")
+  add_steps(command, arguments->steps, "straight steps per cycle when slip is computed")
       ->range(8, 10000000)
       ->group(path);
   const std::string before =
-      command.under("Use, of slow tangential motions (--drag-velocity may be left out)");
+      command.under("Damper under slow shear (--drag-velocity may be left out)");
   arguments->body.add_to(command, "the largest --normal-amplitude, or 1um");
   command.under(before);
   arguments->maps.add_to(command);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra export`: the law of a contact as input of another program.
+// `salebra export`: contact law as input for another program.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -33,7 +33,7 @@ struct ExportArguments {
   int rows = 200, sliders = 200;
 };
 
-/// Parameters of a study that its file holds and no option gave.
+/// Numbers that the result file of a study contains and that no option gave.
 struct StudyParameters {
   double modulus_ratio = DeckContact::unknown;
   std::string comment = {};
@@ -49,25 +49,24 @@ StudyParameters parameters_of(const std::filesystem::path& file) {
   if (!reader.has("damping")) return parameters;
   if (const auto ratio = reader.number_attribute("damping", "modulus_ratio"))
     parameters.modulus_ratio = *ratio;
-  // Files of 1.0 have another name for it.
-  const std::string solution = reader.has("solution") ? "solution" : "answer";
-  if (reader.has(solution))
-    if (const auto validity = reader.text_attribute(solution, "validity")) {
+  if (reader.has("solution"))
+    if (const auto validity = reader.text_attribute("solution", "validity")) {
       require(parse_enum<Validity>(*validity).has_value(), file.string(), *validity,
-              fmt::format("is no verdict of a study, in {}/validity; one of {}", solution,
+              fmt::format("in solution/validity is not a verdict of a study; known are {}",
                           fmt::join(names_of<Validity>(), ", ")));
       parameters.comment = "Study: validity of its damping constant: " + *validity + ".";
     }
   return parameters;
 }
 
-/// Throws InvalidInput for what an interrupted study left.
+/// Throws InvalidInput if the file belongs to an interrupted study.
 void require_finished(const std::string& file) {
   const std::string parts = file + ".parts";
   if (!std::filesystem::exists(file) && std::filesystem::is_directory(parts))
-    throw InvalidInput(file, "is not there: its study was interrupted, and " + parts +
-                                 " holds the surfaces that were finished; continue with the "
-                                 "command of the study and --resume");
+    throw InvalidInput(
+        file,
+        "does not exist: its study was interrupted, and " + parts +
+            " holds the finished surfaces; continue with the command of the study and --resume");
 }
 
 bool complete_forces(const ForceCurve& curve) {
@@ -82,11 +81,14 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
   if (arguments.material.given()) parameters.modulus_ratio = arguments.material.modulus_ratio();
   problem.comment = parameters.comment;
   const std::vector<OperatingPoints> at = arguments.law.at.given();
-  require(at.size() < 2, "--normal-force", "several operating points", "are given; give one");
+  if (at.size() > 1)
+    throw InvalidInput(
+        "--" + option_word(at[1].control),
+        fmt::format("given together with --{}; give one of them", option_word(at[0].control)));
   std::vector<DeckContact> contacts;
   for (ForceCurve& curve : read_force_curves(file)) {
     require_that(curve.nominal_area > 0 || arguments.nominal_area || complete_forces(curve),
-                 "--nominal-area", "not given, but " + file + " has pressures and no forces");
+                 "--nominal-area", "not given, but " + file + " has pressures without forces");
     const double sample_area = curve.nominal_area;
     if (arguments.nominal_area)
       curve = curve_of_part(std::move(curve), *arguments.nominal_area, file);
@@ -106,6 +108,7 @@ void run(const ExportArguments& arguments, Session& session) {
   require_that(arguments.result.empty() || law.curve.empty(), "--curve",
                "given together with RESULT; give one of them");
   const std::string file = arguments.result.empty() ? law.curve : arguments.result;
+  law.at.require_one("a deck takes one");
   DeckProblem problem{.contacts = {},
                       .format = *parse_enum<DeckFormat>(arguments.format),
                       .units = parse_unit_system(arguments.units, "--units"),
@@ -120,7 +123,7 @@ void run(const ExportArguments& arguments, Session& session) {
   if (arguments.min_force) problem.min_force = *arguments.min_force;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
-            "values must be two, LOWER,UPPER");
+            "values given; it takes two, LOWER,UPPER");
     problem.pressure_window = {arguments.window[0], arguments.window[1]};
   }
   if (!file.empty()) {
@@ -160,39 +163,41 @@ void run(const ExportArguments& arguments, Session& session) {
 void add_export_command(Program& program) {
   auto arguments = std::make_shared<ExportArguments>();
   Command& command = program.add_command(
-      "export", "the law of a contact as input of another program",
+      "export", "contact law as input for another program",
       {"salebra export study.h5 --to calculix --units mm,t,s -o contact.inp",
        "salebra export --law exponential --decay-length 100nm --normal-force 10N --poisson 0.3 "
        "--friction-coefficient 0.3 --to jenkins --sliders 200 -o sliders.csv"},
       [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
   command
       .add_option("RESULT", arguments->result,
-                  "file of contact, with several loads, or of a study, or a text table")
+                  "result of contact with several loads, result of a study, or a text table")
       ->file(FileUse::input);
   add_choice<DeckFormat>(command, "--to", arguments->format, "the format")->required();
   command.add_option("--units", arguments->units,
-                     "LENGTH,MASS,TIME of the other program, such as mm,t,s; default m,kg,s");
+                     "units LENGTH,MASS,TIME of the other program, such as mm,t,s; default m,kg,s");
   add_quantity(command, "--friction-coefficient", arguments->friction_coefficient,
-               Dimension::dimensionless, "mu, for decks with friction and sliders");
-  add_quantity(
-      command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
-      "of the part: forces of a file and of --surface times its ratio to theirs; of --law, "
-      "whose pressure is its force over it");
+               Dimension::dimensionless,
+               "coefficient of friction mu, for decks with friction and for sliders");
+  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+               "nominal area of the part: forces of a file or of --surface are scaled to it; the "
+               "force of --law over it is the pressure");
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
-             "LOWER,UPPER nominal pressure of a table; default: the whole curve");
+             "nominal pressures LOWER,UPPER of a table; default: the whole curve");
   command
       .add_option("--rows", arguments->rows,
-                  "of a table; default 200, of calculix at most 198, of ansys 19")
+                  "rows of a table; default 200, at most 198 for calculix and 19 for ansys")
       ->range(4, 100000);
-  const std::string before = command.under("Sliders (--to jenkins) and levels (--to c-header)");
-  command.add_option("--sliders", arguments->sliders, "how many, of c-header levels; default 200")
+  const std::string before = command.under("Sliders (--to jenkins) and springs (--to c-header)");
+  command
+      .add_option("--sliders", arguments->sliders,
+                  "number of sliders, or of springs in a C header; default 200")
       ->range(2, 100000);
   command.add_option("--name", arguments->name,
-                     "with which names of a C header begin; default contact");
+                     "prefix of the names in a C header; default contact");
   add_quantity(command, "--min-force", arguments->min_force, Dimension::dimensionless,
-               "T/(mu F) from which their loss is right to 1 %; default 0.01");
+               "T/(mu F) from which the loss of the sliders is right to 1 %; default 0.01");
   add_choice<DeckCase>(command, "--of", arguments->of,
-                       "which of several surfaces; default mean. Tables hold all three");
+                       "which of several surfaces to take; default mean. Tables hold all three");
   command.under(before);
   arguments->law.add_to(command);
   arguments->material.add_to(command);

@@ -27,16 +27,16 @@ struct FitArguments {
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
-/// What the numbers mean for a user who does not know the test. noisy: the samples scatter
-/// independently, as those of a load cell do; the residuals of a computed curve are the misfit of
-/// the law, to which no probability belongs.
+/// Explains the results of the test in words. noisy: the samples scatter independently, as those of
+/// a load cell do. The residuals of a computed curve are the misfit of the law; they have no
+/// probability.
 std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts,
                      const LawDescription& law, bool noisy) {
   return fmt::format(
       "{}{}\nOver the window l changes from {} (smallest gap) to {} (largest gap), by {:+.0f} %.\n"
       "Fits to parts of the window, of at least half its samples, give l from {} to {}.\n",
       cli::in_words(law, "this curve"),
-      noisy ? fmt::format(" Scatter alone would bend ln F so far with a probability of {:.2g}.",
+      noisy ? fmt::format(" Scatter alone would bend ln F this much with a probability of {:.2g}.",
                           test.significance)
             : "",
       length_text(test.decay_length_at_min_gap), length_text(test.decay_length_at_max_gap),
@@ -48,8 +48,11 @@ void run(const FitArguments& arguments, Session& session) {
   const ForceCurve curve = read_force_curve(arguments.curve);
   std::optional<PressureWindow> window;
   if (!arguments.window.empty()) {
-    require(arguments.window.size() == 2 && arguments.window[0] < arguments.window[1],
-            "--pressure-window", arguments.window.size(), "values must be two, LOWER,UPPER");
+    require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
+            "values given; it takes two, LOWER,UPPER");
+    require(arguments.window[0] < arguments.window[1], "--pressure-window",
+            format_quantity(arguments.window[0], Dimension::pressure),
+            "is the lower pressure and must be below the upper one");
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
   const FitWeights weights = *parse_enum<FitWeights>(arguments.weights);
@@ -69,7 +72,7 @@ void run(const FitArguments& arguments, Session& session) {
       weights,
       {length_by(FitWeights::spacing), length_by(FitWeights::equal), length_by(FitWeights::force)},
       parts}));
-  std::string verdict = "Four samples in the window would be needed to test the law.\n";
+  std::string verdict = "To test the law, the window must hold at least four samples.\n";
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
     const LawDescription law =
@@ -81,7 +84,7 @@ void run(const FitArguments& arguments, Session& session) {
     verdict = in_words(test, parts, law, noisy);
   }
   write_tables(session, "fit", answer, {});
-  // Too long for the answer in words, and not a part of the fit.
+  // The local decay lengths only go into the file: they are too long for the text of the answer.
   Json complete = answer;
   complete["local"] = lists_of(local_decay_length(curve));
   if (session.has_plot()) session.plot(curve_figure(curve, fit));
@@ -99,16 +102,15 @@ void add_fit_command(Program& program) {
       "pressure over gap with the fitted law, area, stiffness");
   command
       .add_option("CURVE", arguments->curve,
-                  "file of contact or a study of one surface, or a text table")
+                  "result of contact or of a study of one surface, or a text table")
       ->required()
       ->file(FileUse::input);
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
-             "LOWER,UPPER; default: mean gaps of 1 to 2.5 rms heights");
-  add_choice<FitWeights>(
-      command, "--weights", arguments->weights,
-      "what a sample counts: spacing, the length of gap it stands for (computed curves); equal "
-      "(noise in proportion to F); force, F^2 (noise of one size). The last two give a 95 % "
-      "interval of l too");
+             "pressures LOWER,UPPER of the fit; default: mean gaps of 1 to 2.5 rms heights");
+  add_choice<FitWeights>(command, "--weights", arguments->weights,
+                         "weight of a sample: spacing, the range of gap that it represents "
+                         "(computed curves); equal (noise in proportion to F); force, F^2 (noise "
+                         "of one size). The last two also give a 95 % interval of l");
 }
 
 }  // namespace salebra::cli

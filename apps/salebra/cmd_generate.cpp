@@ -42,7 +42,7 @@ struct GenerateArguments {
   bool non_gaussian() const { return skewness || kurtosis || weibull || !heights_from.empty(); }
 };
 
-/// One or two whole numbers, the second of which is the first where it is left out.
+/// Reads "NX,NY" or "N"; with one whole number the second is the same.
 std::pair<Index, Index> counts_of(const std::string& text, const std::string& option) {
   const auto values = parse_values(text, Dimension::dimensionless, option);
   for (const double count : values)
@@ -71,12 +71,12 @@ Json all_of(const SpectralMoments& moments) {
   return object;
 }
 
-/// What was asked for, and what a lattice has of it in the mean.
+/// JSON of the moments that were requested (target) and of their mean values on the grid (lattice).
 Json asked(std::uint64_t seed, const std::string& method, const Json& target, const Json& lattice) {
   return {{"seed", seed}, {"method", method}, {"target", target}, {"lattice", lattice}};
 }
 
-/// Heights of a file; its own size does not matter here.
+/// Reads the heights of a file whose lateral size does not matter.
 Surface read_unsized(const std::string& file) {
   ReadOptions options;
   options.size_x = 1;
@@ -84,7 +84,7 @@ Surface read_unsized(const std::string& file) {
   return read_surface(file, options);
 }
 
-/// Empty for heights as the random surface has them.
+/// The distribution of heights that the options describe; empty for Gaussian heights.
 std::optional<HeightDistribution> distribution_of(const GenerateArguments& arguments) {
   if (!arguments.non_gaussian()) return {};
   const bool johnson = arguments.skewness || arguments.kurtosis;
@@ -103,8 +103,8 @@ void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
   require_memory(grid, static_cast<double>(bytes), "a surface", session.communicator());
   const NodeMemory memory = memory_of_nodes(static_cast<double>(bytes), session.communicator());
   session.inform(fmt::format("memory: {} needed, {} available{}", memory_text(memory.needed),
-                           memory_text(memory.available),
-                           memory.nodes > 1 ? " on node " + memory.node : ""));
+                             memory_text(memory.available),
+                             memory.nodes > 1 ? " on node " + memory.node : ""));
 }
 
 std::string method_of(const GenerateArguments& arguments) {
@@ -113,20 +113,21 @@ std::string method_of(const GenerateArguments& arguments) {
                                     : "filtered-noise";
 }
 
-/// A random surface, with what is to be said of it added to the answer.
+/// Makes a random surface and adds its description to the answer.
 Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, Session& session,
                        Json& answer) {
   const std::shared_ptr<const Spectrum> spectrum =
       arguments.spectrum.spectrum(std::max(grid.lx, grid.ly));
   const std::optional<HeightDistribution> distribution = distribution_of(arguments);
-  // Before the sums over all modes, which take long on a grid that does not fit.
+  // Refuses a grid that does not fit the spectrum before the sums over all modes, which take long.
   spectrum->require_carried_by(grid);
   report_memory(grid,
                 arguments.non_gaussian() ? non_gaussian_memory(grid)
                                          : generation_memory(grid, session.communicator()),
                 session);
   Forecast expected;
-  collectively(session.communicator(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
+  collectively(session.communicator(),
+               [&] { expected = forecast(grid, *spectrum, session.progress()); });
   session.warn(expected.warnings);
   const std::string method = method_of(arguments);
   answer.add(asked(arguments.seed, arguments.non_gaussian() ? "non-gaussian" : method,
@@ -134,7 +135,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   if (const Json lay = arguments.spectrum.anisotropy(); !lay.is_null()) answer["anisotropy"] = lay;
   if (arguments.non_gaussian()) {
     require(method == "random-phase", "--method", method,
-            "has Gaussian heights only; leave it out with a distribution");
+            "makes only Gaussian heights; leave it out with a distribution");
     NonGaussianSurface made = non_gaussian(
         grid, *spectrum, *distribution, arguments.seed,
         {.exact = *parse_enum<Exact>(arguments.exact), .on_progress = session.progress()});
@@ -142,23 +143,26 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
       throw Interrupted("generate: interrupted; no surface was written");
     if (!made.converged())
       throw NotConverged(
-          fmt::format("generate: the spectrum still changes after {} iterations; "
-                      "take heights closer to Gaussian ones",
+          fmt::format("generate: the spectrum still changes after {} iterations; choose heights "
+                      "closer to Gaussian ones",
                       made.iterations));
     answer["distribution"] = {{"name", distribution->name}};
     answer["distribution"].add(json_of(made));
     return std::move(made.surface);
   }
   if (method == "random-phase")
-    return random_phase(grid, *spectrum, arguments.seed, session.progress(), session.communicator());
+    return random_phase(grid, *spectrum, arguments.seed, session.progress(),
+                        session.communicator());
   if (method == "exact-rms")
     return exact_rms(grid, *spectrum, arguments.seed,
                      arguments.spectrum.rms_slope ? Rms::slope : Rms::height, session.progress(),
                      session.communicator());
-  return filtered_noise(grid, *spectrum, arguments.seed, session.progress(), session.communicator());
+  return filtered_noise(grid, *spectrum, arguments.seed, session.progress(),
+                        session.communicator());
 }
 
-/// Rows of i, j, Re ĥ, Im ĥ.
+/// Makes a surface of the Fourier modes in a file. Each row has the whole numbers i and j of waves
+/// along x and y, and the real and imaginary part of the amplitude ĥ.
 Surface surface_of_file(const GenerateArguments& arguments, const Grid2D& grid) {
   const double unit = arguments.fourier_unit.value_or(1);
   require_positive(unit, "--fourier-unit");
@@ -168,12 +172,12 @@ Surface surface_of_file(const GenerateArguments& arguments, const Grid2D& grid) 
                                             {"real", Dimension::length, {"re"}},
                                             {"imaginary", Dimension::length, {"im", "imag"}}});
   require(!has_units || !arguments.fourier_unit, "--fourier-unit", unit,
-          "is given for a file whose titles name units; leave it out");
+          "given, but the column titles of the file state units; leave it out");
   std::vector<FourierMode> modes;
   for (std::size_t k = 0; k < columns[0].size(); ++k) {
     for (const double wave : {columns[0][k], columns[1][k]})
       require(wave == std::floor(wave) && std::abs(wave) < 1 << 20, "--fourier", wave,
-              "is no whole number of waves in the period");
+              "is not a whole number of waves in the period");
     modes.push_back(
         {Index(columns[0][k]), Index(columns[1][k]), {unit * columns[2][k], unit * columns[3][k]}});
   }
@@ -188,18 +192,20 @@ Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
 void make_profile(const GenerateArguments& arguments, Session& session) {
   require_tables(session, {"profile"});
   const auto [points, lines] = counts_of(arguments.points, "--points");
-  require_that(lines == points && !arguments.size_y && arguments.crop.empty() &&
-                   arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
-               "--profile", "given with an option that only surfaces have; leave that out");
+  require_that(
+      lines == points && !arguments.size_y && arguments.crop.empty() &&
+          arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
+      "--profile",
+      "given together with an option that applies only to surfaces; leave that option out");
   const double length = *arguments.size_x;
   const SelfAffineProfileSpectrum spectrum = arguments.spectrum.profile_spectrum(length);
   const std::string method = arguments.method.empty() ? "filtered-noise" : arguments.method;
   require(method != "exact-rms", "--method", method,
-          "is for surfaces; a random-phase profile has exactly its lattice value");
+          "applies only to surfaces; the rms value of a random-phase profile is exact anyway");
   const Profile profile = method == "random-phase"
                               ? random_phase_profile(points, length, spectrum, arguments.seed)
                               : filtered_noise_profile(points, length, spectrum, arguments.seed);
-  // A surface of one row, of which the moments along y are 0.
+  // Treats the profile as a surface of one row, whose moments along y are 0.
   Surface line{{points, 1, length, length}, Field(points, 1), true, profile.origin};
   std::vector<double> x;
   for (Index k = 0; k < points; ++k) {
@@ -218,7 +224,7 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
   session.answer(answer);
 }
 
-/// Refuses what needs the surface whole, where it is spread over processes.
+/// Throws InvalidInput for options that need the whole surface if it is spread over processes.
 void require_spreadable(const GenerateArguments& arguments, const Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.shape.given(), "--shape"),
                                       {arguments.profile, "--profile"},
@@ -231,8 +237,9 @@ void require_spreadable(const GenerateArguments& arguments, const Session& sessi
 }
 
 void estimate(const GenerateArguments& arguments, const Grid2D& grid, Session& session) {
-  require(!arguments.shape.given() && !arguments.non_gaussian(), "--dry-run", "generate",
-          "is for Gaussian random surfaces; leave out --shape and distributions of heights");
+  require(
+      !arguments.shape.given() && !arguments.non_gaussian(), "--dry-run", "generate",
+      "estimates only Gaussian random surfaces; leave out --shape and distributions of heights");
   answer_dry_run(planned(arguments.dry_run, grid, session),
                  fmt::format("{}, seed {}", method_of(arguments), arguments.seed), session);
 }
@@ -243,7 +250,7 @@ void require_one_surface(const GenerateArguments& arguments) {
   require(!arguments.shape.given() || !random, "--shape", arguments.shape.shape,
           "cannot be combined with a spectrum; give one of them");
   require(arguments.fourier.empty() || !(arguments.shape.given() || random), "--fourier",
-          arguments.fourier, "are the surface; leave out shape and spectrum");
+          arguments.fourier, "defines the whole surface; leave out shape and spectrum");
   require_that(!arguments.fourier_unit || !arguments.fourier.empty(), "--fourier-unit",
                "given without --fourier");
 }
@@ -280,7 +287,8 @@ void run(const GenerateArguments& arguments, Session& session) {
     surface = cropped(arguments, surface);
     answer["periodic"] = surface.periodic;
   }
-  // Wave by wave where the surface is periodic, by differences of its points elsewhere.
+  // surface_moments() uses the spectrum of a periodic surface, and differences between neighbouring
+  // points of any other surface, which needs three points in each direction.
   if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3))
     answer["realised"] = all_of(surface_moments(surface));
   if (arguments.non_gaussian()) answer["realised"].add(json_of(height_statistics(surface)));
@@ -300,19 +308,19 @@ void run(const GenerateArguments& arguments, Session& session) {
 }
 
 void add_heights(Command& command, GenerateArguments& arguments) {
-  command.under("Heights that are not Gaussian");
+  command.under("Non-Gaussian heights");
   add_quantity(command, "--skewness", arguments.skewness, Dimension::dimensionless,
-               "of Johnson's distribution; default 0");
+               "skewness of the heights, Johnson's distribution; default 0");
   add_quantity(command, "--kurtosis", arguments.kurtosis, Dimension::dimensionless,
-               "the same; 3 for a Gaussian");
+               "kurtosis of the heights; 3 for a Gaussian");
   add_quantity(command, "--weibull", arguments.weibull, Dimension::dimensionless,
-               "shape of Weibull's distribution");
+               "shape parameter of a Weibull distribution of heights");
   command
       .add_option("--heights-from", arguments.heights_from,
-                  "the distribution of heights of this surface, less its trend")
+                  "take the distribution of heights from this surface, less its trend")
       ->file(FileUse::input);
   add_choice<Exact>(command, "--exact", arguments.exact,
-                    "which of the two holds exactly; default heights");
+                    "whether the heights or the spectrum are exact; default heights");
 }
 
 }  // namespace
@@ -338,30 +346,31 @@ void add_generate_command(Program& program) {
   add_choice(command, "--method", arguments->method,
              {"filtered-noise", "random-phase", "exact-rms"},
              "Gaussian process, exact mode powers, or exact rms; default filtered-noise");
-  add_seed(command, arguments->seed, "any whole number >= 0; default 1");
+  add_seed(command, arguments->seed, "seed, any whole number >= 0; default 1");
   arguments->spectrum.add_to(command);
 
   command.under("Fourier coefficients");
   command
       .add_option("--fourier", arguments->fourier,
-                  "the surface of a file of i, j, Re h, Im h: waves in the period along x and y")
+                  "file that gives the surface by rows of i, j, Re h, Im h, with i and j waves in "
+                  "the period along x and y")
       ->file(FileUse::input);
   add_quantity(command, "--fourier-unit", arguments->fourier_unit, Dimension::length,
-               "of the coefficients, such as 0.1mm; default 1 m");
+               "unit of the coefficients, such as 0.1mm; default 1 m");
 
   add_heights(command, *arguments);
   arguments->shape.add_to(command);
 
   command.under("Post-processing");
   command.add_flag("--profile", arguments->profile,
-                   "a line of heights in place of a surface: --points N, self-affine");
+                   "make a self-affine line profile instead of a surface, with --points N");
   command
       .add_option("--composite", arguments->composite,
-                  "add the heights of this surface, which has the same points")
+                  "add the heights of this surface, which must have the same points")
       ->file(FileUse::input);
   command
       .add_option("--crop", arguments->crop,
-                  "keep so many points, as a surface that is not periodic")
+                  "keep this many points, as a surface that is not periodic")
       ->type_name("NX[,NY]");
   arguments->dry_run.add_to(command);
 }

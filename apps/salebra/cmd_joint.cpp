@@ -6,11 +6,11 @@
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
 
+#include "assumption_options.hpp"
 #include "damping/joint_loop.hpp"
 #include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 
@@ -32,8 +32,9 @@ double half_range_of(const std::vector<double>& values) {
   return (high - low) / 2;
 }
 
-// The loop of the largest motion by the springs of the law. A surface has a loss of its own, hence
-// the loop is scaled to its force and displacement.
+// The loop of displacement and force of the largest motion, computed from the springs of the
+// contact law. The loss of a surface is computed without the law, so the loop is scaled to the
+// force and displacement that were found for the surface.
 detail::JointLoop loop_of(const JointArguments& arguments, const JointSolution& found,
                           Session& session) {
   const JointLoss& largest =
@@ -43,10 +44,11 @@ detail::JointLoop loop_of(const JointArguments& arguments, const JointSolution& 
                      .phase = found.largest.phase};
   if (!arguments.tangential_forces.empty() && motion.normal_amplitude > 0)
     motion.tangential = TangentialForce{largest.tangential_force};
-  // An even number of steps has both ends of a harmonic motion.
-  detail::JointLoop loop = detail::joint_loop(
-      *found.contact.law, found.state.indentation, motion, *arguments.assumptions.friction_coefficient,
-      arguments.steps + arguments.steps % 2, session.context().on_progress);
+  // An even number of steps contains the maximum and the minimum of a harmonic motion.
+  detail::JointLoop loop =
+      detail::joint_loop(*found.contact.law, found.state.indentation, motion,
+                         *arguments.assumptions.friction_coefficient,
+                         arguments.steps + arguments.steps % 2, session.context().on_progress);
   const double along = largest.tangential_amplitude / half_range_of(loop.displacement);
   const double up = largest.tangential_force / half_range_of(loop.tangential_force);
   for (double& x : loop.displacement) x *= along;
@@ -87,8 +89,8 @@ void check(const JointArguments& arguments) {
                "--tangential-amplitudes",
                "given together with --tangential-forces; give one of them");
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
-          "is that of a normal oscillation; give --normal-amplitude");
-  arguments.law.at.require_one("a joint takes one, and several tangential forces or amplitudes");
+          "needs a normal oscillation; give --normal-amplitude");
+  arguments.law.at.require_one("a joint takes one, with several tangential forces or amplitudes");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
 }
@@ -146,26 +148,27 @@ void add_joint_command(Program& program) {
   arguments->law.add_to(command);
   arguments->material.add_to(command);
   add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
-               "of the part: forces of --curve and --surface times its ratio to theirs; of --law, "
-               "for results per area");
+               "nominal area of the part: forces of --curve or --surface are scaled to it; with "
+               "--law, for results per area");
   command.under("Motion");
   add_values(command, "--tangential-forces", arguments->tangential_forces, Dimension::force,
-             "T of an oscillation between -T and T: one, a list or a range");
+             "amplitudes T of a force between -T and T: one, a list or a range");
   add_values(command, "--tangential-amplitudes", arguments->tangential_amplitudes,
-             Dimension::length, "x of an oscillation between -x and x, instead");
+             Dimension::length,
+             "amplitudes x of a displacement between -x and x, instead of --tangential-forces");
   add_quantity(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length,
-               "u_z; without it the normal force is constant");
+               "amplitude u_z of the normal motion; without it the normal force is constant");
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,
-               "of the tangential motion against the normal one; default 0");
-  add_steps(command, arguments->steps, "in a cycle with a normal oscillation; default 2000")
+               "phase of the tangential motion against the normal one; default 0");
+  add_steps(command, arguments->steps, "steps per cycle with a normal oscillation; default 2000")
       ->range(16, 10000000);
   command
-      .add_option("--direct-steps", arguments->direct_steps,
-                  "simulates each motion cell by cell too, with so many steps in a cycle; of "
-                  "--surface")
+      .add_option(
+          "--direct-steps", arguments->direct_steps,
+          "with --surface: also simulate each motion cell by cell, with this many steps per cycle")
       ->range(16, 100000);
   add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
-               "in Hz, to judge inertia");
+               "frequency in Hz, to check for inertia");
   arguments->assumptions.add_to(command, false);
 }
 

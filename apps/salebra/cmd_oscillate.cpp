@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra oscillate`: direct simulation of an oscillating contact, next to the theorem.
+// `salebra oscillate`: direct simulation of an oscillating contact, compared with the theorem.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 
+#include "assumption_options.hpp"
 #include "base/memory.hpp"
 #include "base/stop_check.hpp"
 #include "friction_options.hpp"
 #include "options.hpp"
 #include "oscillation_answer.hpp"
-#include "assumption_options.hpp"
 #include "program.hpp"
 #include "record_options.hpp"
 #include "results/columns.hpp"
@@ -44,16 +44,17 @@ struct OscillateArguments {
 constexpr double default_size = 1e-3;  // m
 
 OscillatingBody shape_of(const OscillateArguments& arguments, const std::string& shape) {
-  // An automatic choice begins with few cells.
+  // With --relative-error the first grid has few cells, because it will be refined.
   const int points = arguments.points.value_or(arguments.relative_error ? 64 : 128);
   require(points >= 16, "--points", points, "must be >= 16");
   const double size = arguments.surface.size_x.value_or(default_size);
   const double width = arguments.surface.size_y.value_or(size);
   const double lines = points * width / size;
   constexpr double max_lines = std::numeric_limits<int>::max();
-  require(
-      lines < max_lines, "--size-y", format_quantity(width, Dimension::length),
-      fmt::format("would need {:.3g} lines of the cells of --size-x; choose a smaller one", lines));
+  require(lines < max_lines, "--size-y", format_quantity(width, Dimension::length),
+          fmt::format(
+              "needs {:.3g} rows of cells of the size given by --size-x; choose a smaller width",
+              lines));
   const Grid2D grid{points, std::max<Index>(1, std::lround(lines)), size, width};
   grid.validate();
   require_memory(grid, sizeof(double) * static_cast<double>(grid.points()), "a surface");
@@ -64,14 +65,14 @@ OscillatingBody file_of(const OscillateArguments& arguments, Session& session) {
   OscillatingBody body;
   body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
-  require_that(arguments.point.count() == 1, "--indentation",
-               "needed with --surface; give one operating point");
+  if (arguments.point.count() == 0)
+    require_options({"--pressure (or --normal-force, --mean-gap, --indentation)"}, "--surface");
   return body;
 }
 
 OperatingPoint point_of(const OperatingPointOptions& options, const OscillatingBody& body) {
-  require_that(options.count() <= 1, "--indentation",
-               "given together with another operating point; give one");
+  require_that(options.count() <= 1, "--pressure, --normal-force, --mean-gap, --indentation",
+               "several are given; give one of them");
   if (options.mean_gap) return at_mean_gap(*options.mean_gap);
   if (const auto pressure = options.nominal_pressure(body.surface.grid))
     return at_pressure(*pressure);
@@ -82,8 +83,8 @@ Oscillation motion_of(MotionOptions motion, const OscillatingBody& body, double 
   const auto fill = [](std::vector<double>& values, double value) {
     if (values.empty()) values = {value};
   };
-  // A shape by its name alone is the paper's experiment: everything moves, at 90 degrees; a drag
-  // by u_z in a radian.
+  // A shape without motion options repeats the experiment of the paper: equal tangential and normal
+  // amplitudes with a phase of 90 degrees, or a drag by u_z per radian of the normal oscillation.
   if (body.normal_amplitude > 0) {
     const bool drags = motion.mode == "drag" && motion.normal_amplitude.empty() &&
                        motion.drag_velocity.empty() && !motion.frequency.given();
@@ -97,7 +98,7 @@ Oscillation motion_of(MotionOptions motion, const OscillatingBody& body, double 
     }
   }
   require_that(motion.varied().second.empty(), motion.varied().first,
-               "is a range of a single simulation; give one value");
+               "has several values; a simulation takes one");
   return motion.motions().front();
 }
 
@@ -107,25 +108,26 @@ void check(const OscillateArguments& arguments, Session& session) {
   arguments.record.check(arguments.steps, arguments.friction.cycles(), session);
   require(simulate || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
           "--method", arguments.method,
-          "steps through no cycle: leave out --checkpoint and --fields");
+          "does not step through a cycle: leave out --checkpoint and --fields");
   require(simulate || !session.has_plot(), "--method", arguments.method,
-          "steps through no cycle: leave out --plot");
+          "does not step through a cycle: leave out --plot");
   const FrictionOptions& friction = arguments.friction;
   friction.check();
   require(simulate || !friction.given(), "--method", arguments.method,
-          "steps through no cycle: leave out " + friction.name());
+          "does not step through a cycle: leave out " + friction.name());
   for (auto shape = arguments.shapes.begin(); shape != arguments.shapes.end(); ++shape)
     require(std::find(arguments.shapes.begin(), shape, *shape) == shape, "--shape", *shape,
             "is given twice");
   for (const auto& [option, file] : {std::pair{"--checkpoint", &arguments.record.checkpoint},
                                      {"--fields", &arguments.record.fields}})
     require(file->empty() || arguments.shapes.size() < 2, option, *file,
-            "is of one simulation; give one --shape");
-  require(!arguments.relative_error || arguments.intervals == 0, "--intervals", arguments.intervals,
-          "cannot be combined with --relative-error, which chooses them; give one");
+            "takes one simulation; give one --shape");
+  require(
+      !arguments.relative_error || arguments.intervals == 0, "--intervals", arguments.intervals,
+      "cannot be combined with --relative-error, which chooses the intervals; give one of them");
 }
 
-// shape: empty for a surface.
+// shape: name of the shape to simulate; empty for --surface.
 OscillationCase case_of(const OscillateArguments& arguments, const std::string& shape,
                         Session& session) {
   OscillationCase contact;
@@ -145,7 +147,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   load_plastically(contact, point, *hardness, session.progress());
   require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
           "--hardness", format_quantity(*hardness, Dimension::pressure),
-          "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
+          "is reached, and a shape that has yielded cannot be refined; leave out --relative-error");
   return contact;
 }
 
@@ -187,7 +189,8 @@ CycleRecorder recorder_of(const OscillateArguments& arguments, const Oscillation
           arguments.friction.cycles()};
 }
 
-// Progress of simulation `done` of `count`, each with levels and steps that take about as long.
+// Reports the progress of simulation `done` of `count` as part of the whole. The quadrature and the
+// steps of a simulation take about the same time.
 Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
   if (count == 1) return bar;
   return [=](const ProgressReport& report) {
@@ -216,7 +219,7 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   return figure;
 }
 
-// A line for each shape.
+// Table with a line for each shape.
 std::string table_of(const std::vector<OscillationOutcome>& outcomes,
                      const std::vector<std::string>& shapes) {
   std::vector<std::vector<std::string>> rows{{"shape", "W", "W over Eq. (12) or (15)",
@@ -228,13 +231,14 @@ std::string table_of(const std::vector<OscillationOutcome>& outcomes,
       return ratio ? fmt::format("{:.4f}", *ratio) : std::string("no loss");
     };
     rows.push_back({shapes[k], format_quantity(outcome.work_per_cycle(), Dimension::energy),
-                    text(outcome.intervals.small_amplitude_work), text(outcome.intervals.work_by_force),
+                    text(outcome.intervals.small_amplitude_work),
+                    text(outcome.intervals.work_by_force),
                     fmt::format("{:.1e}", outcome.work_per_cycle() / outcome.elastic_energy())});
   }
   return to_table(rows, 2, true);
 }
 
-// shapes: of each outcome; empty for a surface.
+// Prints and writes the results. shapes: name of the shape of each outcome; empty for --surface.
 void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArguments& arguments,
             Session& session) {
   const std::vector<std::string>& shapes = arguments.shapes;
@@ -264,21 +268,22 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
   }
   if (!single) session.answer(all, table_of(outcomes, shapes));
   if (!std::ranges::all_of(outcomes, &OscillationOutcome::converged))
-    throw NotConverged("oscillate: a contact or a tangential solve did not reach its tolerance");
+    throw NotConverged("oscillate: a normal or tangential solve did not reach its tolerance");
   for (const OscillationOutcome& outcome : outcomes) warn_of(outcome, session);
 }
 
 void run(const OscillateArguments& arguments, Session& session) {
   check(arguments, session);
-  // Bad input is refused before the work.
+  // Checks these options, so that bad input is refused before the work.
   arguments.assumptions.parameters(arguments.material, arguments.friction.friction_coefficient);
   const std::vector<std::string> shapes =
       arguments.shapes.empty() ? std::vector<std::string>{""} : arguments.shapes;
   std::vector<OscillationOutcome> outcomes;
-  outcomes.reserve(shapes.size());  // a recorder refers to a surface in it
+  // The elements must not move, because a recorder refers to the surface of one.
+  outcomes.reserve(shapes.size());
   std::optional<CycleRecorder> recorder;
   for (const std::string& shape : shapes) {
-    // The cycle keeps a checkpoint when it is interrupted; what comes before it is of no use then.
+    // Interrupting the quadrature discards its results. An interrupted cycle keeps a checkpoint.
     std::optional<detail::StopCheck> stops{interrupted};
     OscillationCase contact = case_of(arguments, shape, session);
     const OscillationRoutes routes = routes_of(
@@ -317,32 +322,38 @@ void add_oscillate_command(Program& program) {
       "too");
   command
       .add_option("--shape", arguments->shapes,
-                  "the rigid body, with defaults for everything but the material; or several, such "
-                  "as those of the paper's Fig. 3")
+                  "shape of the rigid body, with defaults for everything but the material; or "
+                  "several shapes, such as those of the paper's Fig. 3")
       ->delimiter(',')
       ->type_name("NAMES")
       ->choices(oscillating_shapes());
   arguments->surface.add_to(command, false, "--surface");
-  command.add_option("--points", arguments->points,
-                     "cells along x of a shape; default 128, or 64 to begin --relative-error with");
+  command.add_option(
+      "--points", arguments->points,
+      "cells along x of a shape; default 128, or 64 at the start of --relative-error");
   arguments->point.add_to(command);
   arguments->motion.add_to(command);
   add_quantity(command, "--direction", arguments->direction, Dimension::angle,
-               "of the tangential motion against x; default 0");
+               "direction of the tangential motion against x; default 0");
   add_choice(command, "--lateral", arguments->lateral, {"held", "free"},
              "displacement across the motion: held at 0, or free of traction; default held");
-  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default: as the surface is");
+  add_choice<Boundary>(
+      command, "--boundary", arguments->boundary,
+      "whether the surface repeats itself or is alone on a half-space; default: as the surface is");
   add_choice(command, "--method", arguments->method, {"intervals", "both"},
-             "levels: contact sets at a few indentations; both: also step through the cycle; "
+             "intervals: contact sets at a few indentations; both: also step through the cycle; "
              "default both");
-  add_steps(command, arguments->steps, "changes of the contact in a cycle; default 64")
-      ->range(4, 10000000);
-  command.add_option("--intervals", arguments->intervals, "contacts in the oscillation; default 16, 32 for drag")
+  add_steps(command, arguments->steps, "steps per cycle; default 64")->range(4, 10000000);
+  command
+      .add_option("--intervals", arguments->intervals,
+                  "number of contacts in the cycle; default 16, 32 for drag")
       ->range(0, 4096);
   add_quantity(command, "--relative-error", arguments->relative_error, Dimension::dimensionless,
-               "of the levels' loss, such as 1%: chooses levels and, for a shape, cells");
-  add_quantity(command, "--decay-length", arguments->decay_length, Dimension::length,
-               "l of F = F0 exp(-gap/l), as `fit` finds it: compares with Eq. (16) too");
+               "error allowed for the loss by intervals, such as 1%; chooses their number "
+               "and, for a shape, the cells");
+  add_quantity(
+      command, "--decay-length", arguments->decay_length, Dimension::length,
+      "decay length l of F = F0 exp(-gap/l), as fit finds it, for a comparison with Eq. (16)");
   arguments->record.add_to(command);
   arguments->friction.add_to(command);
   arguments->assumptions.add_to(command);

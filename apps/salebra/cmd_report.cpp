@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra report`: report page of a result file.
+// `salebra report`: makes the report page of a result file.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -40,14 +40,15 @@ void add_report_command(Program& program) {
        "salebra report scan.h5 --title 'Brake disc, 3 h in service' --overwrite"},
       [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
   command
-      .add_option("RESULTS", arguments->results,
-                  "what study or compare wrote; without --output, the page is written next to it")
+      .add_option(
+          "RESULTS", arguments->results,
+          "result file of study or compare; without --output, the page is written next to it")
       ->required()
       ->file(FileUse::input);
   command.add_option("--title", arguments->title, "heading of the page");
   command
       .add_option("--direct", arguments->direct,
-                  "what oscillate wrote of the same surface and motion, drawn with the damping "
+                  "result of oscillate for the same surface and motion, drawn with the damping "
                   "curves; several files one after the other")
       ->file(FileUse::input);
 }

@@ -9,9 +9,9 @@
 #include <salebra/analysis/sliding.hpp>
 #include <salebra/base/error.hpp>
 
+#include "assumption_options.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
@@ -37,7 +37,8 @@ struct SlidingArguments {
   }
 };
 
-// Columns of the amplitude alone; the others depend on the velocity too.
+// Names of the columns that depend on the amplitude only. All other columns also depend on the
+// velocity.
 constexpr std::string_view of_amplitude[]{"mean_force",
                                           "critical_velocity",
                                           "static_friction_coefficient",
@@ -66,7 +67,7 @@ void check(const SlidingArguments& arguments) {
   require_that(sliding.velocities.empty() || sliding.velocity_ratios.empty(), "--velocity-ratios",
                "given together with --velocities; give one of them");
   require_positive(*arguments.assumptions.friction_coefficient, "--friction-coefficient");
-  arguments.law.at.require_one("sliding takes one, and several --velocities");
+  arguments.law.at.require_one("sliding takes one");
   for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
                                        {"--velocity-ratios", &sliding.velocity_ratios},
                                        {"--excursions", &sliding.excursions}})
@@ -74,12 +75,11 @@ void check(const SlidingArguments& arguments) {
   for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
                                        {"--normal-amplitude", &sliding.normal_amplitude}})
     require(!slider || values->size() <= 1, option, values->size(),
-            "are given; a slider takes one");
-  require(!slider || sliding.excursions.empty(), "--excursions", sliding.excursions.size(),
-          "map steady sliding; leave out the options of the slider");
-  require(sliding.excursions.empty() || sliding.normal_amplitude.size() == 1, "--excursions",
-          sliding.excursions.size(),
-          "are a second axis in addition to the velocities; give one --normal-amplitude");
+            "values given; a slider takes one");
+  require_that(!slider || sliding.excursions.empty(), "--excursions",
+               "given, but it maps steady sliding; leave out the options of the slider");
+  require_that(sliding.excursions.empty() || sliding.normal_amplitude.size() == 1, "--excursions",
+               "given, but it maps a single amplitude; give one --normal-amplitude");
 }
 
 ContactSolution contact_of(const SlidingArguments& arguments, Session& session) {
@@ -90,16 +90,16 @@ ContactSolution contact_of(const SlidingArguments& arguments, Session& session) 
       arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest);
   if (contact.surface && arguments.of_slider())
     session.inform(
-        "n/a: the error of the motion. It is that on a law through some loads of the surface, and "
-        "two laws within the error of one may lead to motions of another kind");
+        "The error of the motion is not known: it is computed on a law through some loads of the "
+        "surface, and within the error of that law another kind of motion is possible");
   if (contact.surface && !arguments.sliding.excursions.empty())
     session.inform(
-        "n/a: the error of regimes and of no_slip_excursion, which are those of a law through some "
-        "loads of the surface");
+        "The errors of the regimes and of no_slip_excursion are not known: they are computed on a "
+        "law through some loads of the surface");
   return contact;
 }
 
-// A row for each velocity and excursion.
+// Rows of a table, one for each velocity and excursion of the map.
 std::vector<RegimePoint> rows_of(const RegimeMap& map) {
   std::vector<RegimePoint> rows;
   for (std::size_t i = 0; i < map.velocity.size(); ++i)
@@ -110,14 +110,15 @@ std::vector<RegimePoint> rows_of(const RegimeMap& map) {
 }
 
 AssumptionReport assumptions_of(const SlidingSolution& found, const SlidingProblem& problem,
-                          const ContactSolution& contact, const ContactParameters& known) {
+                                const ContactSolution& contact, const ContactParameters& known) {
   const std::size_t count = problem.normal_amplitude.size(),
                     velocities = found.points.size() / count;
   AssumptionReport assumptions{.list = count > 1};
   for (std::size_t k = 0; k < count; ++k) {
     const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
     const Drag motion{last.normal_amplitude, last.velocity, problem.angular_frequency};
-    assumptions.cases.push_back(contact.assumptions_beside_slip(last.state.indentation, motion, known));
+    assumptions.cases.push_back(
+        contact.assumptions_beside_slip(last.state.indentation, motion, known));
   }
   return assumptions;
 }
@@ -129,7 +130,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
   const std::size_t velocities = problem.velocities.size() + problem.velocity_ratios.size();
   require(!session.has_plot() || !maps || (velocities > 1 && problem.excursions.size() > 1),
           "--plot", fmt::format("{} by {} values", velocities, problem.excursions.size()),
-          "are no map; give several velocities and several --excursions");
+          "make no map; give several velocities and several --excursions");
   problem.friction_coefficient = *arguments.assumptions.friction_coefficient;
   problem.angular_frequency = arguments.frequency.angular().front();
   problem.hold = *parse_enum<Hold>(arguments.hold);
@@ -217,7 +218,8 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   if (session.has_plot())
     session.plot(slider_figure(found.motion, found.averaged, problem.slider.spring_stiffness));
   const ContactParameters known = arguments.assumptions.parameters(arguments.material);
-  AssumptionReport{{contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}
+  AssumptionReport{
+      {contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}
       .answer(session, answer);
 }
 
@@ -230,22 +232,24 @@ void run(const SlidingArguments& arguments, Session& session) {
 }
 
 void add_slider(Command& command, SlidingArguments& arguments) {
-  const Heading under(command, "Slider on a spring, in place of steady sliding");
-  arguments.body.add_to(command, "10 times that of the smallest effect");
+  const Heading under(command, "Slider on a spring, instead of steady sliding");
+  arguments.body.add_to(command,
+                        "10 times the larger of --normal-amplitude and the amplitude at which the "
+                        "oscillation begins to matter");
   add_quantity(command, "--support-damping", arguments.support_damping, Dimension::damping,
-               "c of a dashpot in parallel with the spring; default 0");
+               "damping c of a dashpot in parallel with the spring; default 0");
   add_choice<SliderStart>(command, "--start", arguments.start,
                           "where the motion begins: at rest, on the point of slipping, or sliding "
                           "with a small disturbance; default rest");
   add_steps(command, arguments.steps,
-            "in a period of the oscillation, doubled until the tolerance is met; default 32")
+            "steps per period of the oscillation, doubled until the tolerance is met; default 32")
       ->range(16, 100000);
   command
       .add_option("--max-cycles", arguments.max_cycles,
-                  "slow cycles after which the motion is given up; default 200")
+                  "maximum number of slow cycles until the motion repeats; default 200")
       ->range(1, 1000000);
   add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,
-               "of the amplitude of a slow cycle; default 0.01");
+               "tolerance of the amplitude of a slow cycle; default 0.01");
 }
 
 }  // namespace
@@ -268,18 +272,20 @@ void add_sliding_command(Program& program) {
   arguments->material.add_to(command);
   command.under("Motion");
   SlidingProblem& sliding = arguments->sliding;
-  add_values(command, "--velocities", sliding.velocities, Dimension::velocity,
-             "of sliding, > 0: one, a list or a range; of the drive of a slider");
+  add_values(
+      command, "--velocities", sliding.velocities, Dimension::velocity,
+      "sliding velocities > 0: one, a list or a range; for a slider, the velocity of the drive");
   add_values(command, "--velocity-ratios", sliding.velocity_ratios, Dimension::dimensionless,
-             "v/v_c, instead of --velocities");
+             "sliding velocities over the critical velocity v_c, instead of --velocities");
   add_values(command, "--excursions", sliding.excursions, Dimension::length,
-             "X of slow oscillations between turning points, to map no slip, partial slip and "
-             "sliding over the velocities");
+             "distances X between the turning points of a slow oscillation, to map no slip, "
+             "partial slip and sliding over the velocities");
   add_values(command, "--normal-amplitude", sliding.normal_amplitude, Dimension::length,
-             "u_z; a map over amplitudes where it is a list or a range; of a slider 0 by default");
+             "amplitude u_z of the normal motion; a list or a range gives a map over amplitudes; "
+             "default 0 for a slider");
   arguments->frequency.add_to(command, "Motion", true);
   add_choice<Hold>(command, "--hold", arguments->hold,
-                   "what stays in the mean; default indentation");
+                   "which mean value the oscillation keeps; default indentation");
   add_slider(command, *arguments);
   arguments->assumptions.add_to(command, false);
 }

@@ -61,22 +61,23 @@ const std::vector<std::string> other_tables{
     "correlation", "correlation_x", "correlation_y", "scale_x", "scale_y", "bearing", "histogram"};
 
 constexpr std::string_view needs_whole =
-    "of several processes: no correlation, bearing curve, histogram, Sal, Str, Std, Sk, Spk, Svk, "
-    "Smr1, Smr2, Spd and Spc, which need the surface whole";
+    "with several processes there are no correlation, bearing curve, histogram, Sal, Str, Std, Sk, "
+    "Spk, Svk, Smr1, Smr2, Spd and Spc, because they need the whole surface";
 
 constexpr std::string_view no_hurst =
-    "no Hurst exponent: no range of reliable wavelengths follows a self-affine law closely enough "
-    "for an interval";
+    "no Hurst exponent: in no range of reliable wavelengths the spectrum follows a self-affine law "
+    "closely enough for an interval";
 
-/// Says which waves did not enter the fit of H, and why. asymmetric: see PowerSpectrum.
+/// Notes which waves the fit of the Hurst exponent left out, and why. asymmetric: share of these
+/// waves, see PowerSpectrum.
 void note_asymmetry(const StatisticsArguments& arguments, double asymmetric, Session& session) {
   if (arguments.tip_radius || arguments.resolution || asymmetric == 0) return;
   const std::string waves =
       std::isinf(asymmetric) ? "no wave enters"
                              : fmt::format("waves below {:.3g} um do not enter", 1e6 * asymmetric);
-  session.inform(
-      "peaks and valleys differ, as under a scanning tip: " + waves +
-      " the Hurst exponent; --tip-radius or --resolution says which waves the instrument shows");
+  session.inform("peaks and valleys differ, as they do under a scanning tip: " + waves +
+                 " the fit of the Hurst exponent; --tip-radius or --resolution gives the shortest "
+                 "reliable wavelength");
 }
 
 ReliabilityLimit reliability(const StatisticsArguments& arguments, const Surface& surface) {
@@ -84,13 +85,14 @@ ReliabilityLimit reliability(const StatisticsArguments& arguments, const Surface
       surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution});
 }
 
-/// Shorter waves are the instrument's; 0 where nothing is known of it.
+/// Shortest wavelength, m, that the instrument resolves; shorter waves are artefacts. 0 if the
+/// instrument is not known.
 double reliable_wavelength(const StatisticsArguments& arguments, const Surface& surface) {
   return arguments.tip_radius || arguments.resolution ? reliability(arguments, surface).wavelength()
                                                       : 0;
 }
 
-/// What is printed always.
+/// Grid, roughness and Hurst exponent: the part of the answer that is always printed.
 Json summary(const StatisticsArguments& arguments, const Surface& surface, Index undefined,
              const SelfAffineFit& fit) {
   const HeightStatistics heights = height_statistics(surface);
@@ -107,13 +109,14 @@ Json summary(const StatisticsArguments& arguments, const Surface& surface, Index
   return answer;
 }
 
-/// Those of the surface without holes, if there are any.
+/// Tables of the spectra of a surface without undefined points.
 std::vector<ResultTable> spectra(const Surface& complete, const PowerSpectrum& spectrum,
                                  Window window, PsdConvention convention) {
   const RadialSpectrum radial = radial_spectrum(spectrum);
   std::vector<ResultTable> tables{
       psd_table("psd", converted(radial, complete.grid, convention), radial.modes)};
-  // Integer wave numbers and cycles in a sample are conventions of surfaces alone.
+  // The conventions with integer wave numbers and with cycles per sample exist only for surfaces,
+  // not for profiles.
   const bool of_profiles =
       convention != PsdConvention::tamaas && convention != PsdConvention::rfgen;
   for (const Axis axis : {Axis::x, Axis::y}) {
@@ -126,8 +129,8 @@ std::vector<ResultTable> spectra(const Surface& complete, const PowerSpectrum& s
   return tables;
 }
 
-/// Areal parameters, and the tables that need no filling. spectrum: of the surface under its own
-/// window, if there is one.
+/// Computes areal parameters, and adds to `tables` those that a surface with undefined points has
+/// too. spectrum: of the surface with its default window; nullptr if it has undefined points.
 ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* spectrum,
                                  std::vector<ResultTable>& tables) {
   std::optional<CorrelationMap> map;
@@ -162,25 +165,25 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
-    // Without a window, the steps between opposite edges are in the spectrum of what is not
-    // periodic.
+    // Without a window, the spectrum of a surface that is not periodic contains the steps between
+    // opposite edges, which would falsify the fit.
     if (complete.periodic || spectrum->windowed)
       fit = fit_self_affine(*spectrum, reliable_wavelength(arguments, surface));
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
   const Json answer = summary(arguments, surface, undefined, fit);
-  // A smaller grid has too few wavelengths for an exponent, so that nobody misses it.
+  // Only surfaces with this many points in each direction get a note if no exponent was found.
   constexpr Index expected = 32;
   if (spectrum && std::min(surface.grid.nx, surface.grid.ny) >= expected) {
     if (!fit.hurst.found())
       session.inform(surface.periodic || spectrum->windowed ? no_hurst
-                                                          : "no Hurst exponent without a window");
+                                                            : "no Hurst exponent without a window");
     note_asymmetry(arguments, spectrum->asymmetric_wavelength, session);
   }
   if (!spectrum)
     session.inform(fmt::format(
-        "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
-        undefined));
+        "no power spectrum, because {} undefined; --fill fills in the smoothest surface",
+        undefined == 1 ? "1 point is" : fmt::format("{} points are", undefined)));
   Json whole = answer;
   if (all) {
     if (!surface.communicator.alone()) session.inform(needs_whole);
@@ -197,8 +200,8 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   session.answer(with_tables(whole, tables), text);
 }
 
-/// A generated surface on which contacts can be computed in place of a profile: as long as it is
-/// where that needs no more than 2048 points, four of them for the shortest wave.
+/// The command line that generates an isotropic surface with the fitted spectrum of a profile. The
+/// shortest wave has four points. The surface is as long as the profile if 2048 points are enough.
 std::string generation(const Grid2D& line, const ProfileFit& fit) {
   const auto text = [](double length) { return fmt::format("{:.3g}um", 1e6 * length); };
   const double shortest = std::isnan(fit.short_cutoff) ? 2 * line.dx() : fit.short_cutoff;
@@ -214,7 +217,8 @@ std::string generation(const Grid2D& line, const ProfileFit& fit) {
   return command + " -o surface.h5";
 }
 
-/// A line profile: what it has itself, and the isotropic surface that has such profiles.
+/// Answers for a line profile with its own statistics, and with the parameters of the isotropic
+/// surface that has such profiles.
 void analyse_profile(const StatisticsArguments& arguments, const Surface& profile,
                      Session& session) {
   const Index undefined = profile.undefined_points();
@@ -222,7 +226,8 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   ProfileFit fit = fit_profile(complete, reliable_wavelength(arguments, complete));
   if (const auto trend = parse_enum<Detrend>(arguments.surface.detrend);
       trend == Detrend::none || trend == Detrend::mean) {
-    // Those of the profile with its straight line, which the fit takes off.
+    // Without detrending, rms height and slope include the straight line that fit_profile()
+    // removes.
     const Index n = complete.grid.nx;
     fit.rms_height = height_statistics(complete).rms_height;
     fit.rms_slope = std::sqrt((complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1))
@@ -248,7 +253,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   write_tables(session, "statistics", answer, tables);
   session.answer(answer);
   if (fit.hurst.found())
-    session.inform("An isotropic surface with such profiles: " + generation(profile.grid, fit));
+    session.inform("For an isotropic surface with such profiles: " + generation(profile.grid, fit));
 }
 
 void run(const StatisticsArguments& arguments, Session& session) {
@@ -265,7 +270,8 @@ void run(const StatisticsArguments& arguments, Session& session) {
   try {
     analyse(arguments, surface, session);
   } catch (const InvalidInput& refusal) {
-    // A grid of two rows has no curvature: the statistics do not know which file it came from.
+    // A grid of two rows has no curvature. The statistics name `nx` or `ny` in this error, and not
+    // the file.
     if (refusal.field() != "nx" && refusal.field() != "ny") throw;
     throw InvalidInput(
         arguments.surface.file.empty() ? arguments.surface.recipe : arguments.surface.file,
@@ -288,15 +294,17 @@ void add_statistics_command(Program& program) {
   arguments->surface.add_to(command, false);
   arguments->surface.add_recipe_to(command);
   arguments->surface.profiles = true;
-  command.add_flag("--all", arguments->all,
-                   "print areal parameters, spectra and all other tables too, which files have");
+  command.add_flag(
+      "--all", arguments->all,
+      "also print areal parameters, spectra and all other tables; an output file always has them");
   add_choice<Window>(command, "--window", arguments->window,
-                     "of the spectra; default none if periodic, hann if not");
-  add_choice<PsdConvention>(
-      command, "--convention", arguments->convention,
-      "of the power spectral density; default salebra, rms_height^2 = integral of C d^2q");
-  add_quantity(command, "--tip-radius", arguments->tip_radius, Dimension::length,
-               "of the scanning probe: gives the wavelength below which it shows");
+                     "window of the spectra; default none if periodic, hann if not");
+  add_choice<PsdConvention>(command, "--convention", arguments->convention,
+                            "convention of the power spectral density; default salebra, "
+                            "rms_height^2 = integral of C d^2q");
+  add_quantity(
+      command, "--tip-radius", arguments->tip_radius, Dimension::length,
+      "radius of the scanning probe: gives the wavelength below which the probe distorts the scan");
   add_quantity(command, "--resolution", arguments->resolution, Dimension::length,
                "lateral resolution of the instrument");
 }

@@ -32,8 +32,7 @@ Json damping_of_study(const StudyResult& result, const StudySolution& answer) {
   damping["force"] = forces;
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
-  damping.add(
-      columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
+  damping.add(damping_columns(result, ContactModel::bem));
   return damping;
 }
 
@@ -52,8 +51,8 @@ Json study_json(const StudyResult& result, const StudySolution& answer) {
   return object;
 }
 
-/// The place of the last digit that an error leaves of a value, in units of `unit`: three digits, or
-/// fewer.
+/// The place value of the last digit to print for a value with this error, in units of `unit`; at
+/// most three digits are printed.
 double last_place(double value, double error, double unit) {
   if (value == 0 || std::isnan(value)) return 1;
   const double relative = std::isnan(error) ? 0 : error / std::abs(value);
@@ -65,7 +64,7 @@ double last_place(double value, double error, double unit) {
 std::string rounded(double value, double unit, double index) {
   if (std::isnan(value)) return "n/a";
   const int decimals = std::max(0, int(-std::floor(std::log10(index) + 1e-9)));
-  // Without the sign of a zero.
+  // Removes the sign of a zero.
   return fmt::format("{:.{}f}", std::round(value / unit / index) * index + 0.0, decimals);
 }
 
@@ -73,14 +72,15 @@ std::string digits_of(double value, double error, double unit) {
   return rounded(value, unit, last_place(value, error, unit));
 }
 
-/// "+25 %", and "x 48" beyond a factor of two.
+/// Formats a ratio as its deviation from 1, "+25 %", or as "x 48" beyond a factor of two.
 std::string off_by(double ratio) {
   return std::isnan(ratio) ? "n/a"
          : ratio > 2       ? fmt::format("x {:.2g}", ratio)
                            : fmt::format("{:+.0f} %", 100 * (ratio - 1));
 }
 
-/// A unit in which the largest of a column has one to five digits before the point.
+/// A unit, with its factor, in which the largest of the damping constants has one to five digits
+/// before the point.
 std::pair<double, std::string> unit_of(const std::vector<StatedMean>& constants) {
   double most = 0;
   for (const StatedMean& one : constants) most = std::fmax(most, std::abs(one.mean));
@@ -111,8 +111,8 @@ std::string motion_text(const StudyConfiguration& configuration) {
                      quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
 }
 
-/// The table of loads: γ of the motion as described, beside it what the theorem says without slip
-/// and the closed form.
+/// The table over the loads: damping constant γ of the motion as the user described it, γ without
+/// slip by the theorem, and γ by the closed form for exponential contacts.
 std::string answer_table(const StudyResult& result, const StudySolution& answer) {
   const bool sample = result.realisations.size() > 1, slip = answer.slip_followed;
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
@@ -153,7 +153,7 @@ std::string answer_table(const StudyResult& result, const StudySolution& answer)
   return to_table(rows);
 }
 
-/// What a reader has to know before the numbers are of use, and after.
+/// Warnings that are printed next to the table of damping constants.
 std::string notes(const StudyResult& result, const StudySolution& answer) {
   std::string text;
   if (!answer.unknown.empty())
@@ -165,13 +165,13 @@ std::string notes(const StudyResult& result, const StudySolution& answer) {
   });
   if (unstated > 0)
     text += fmt::format(
-        "n/a at {} of {} loads: the error exceeds the number, because too few cells\n"
-        "touch and part; a finer grid or --relative-error may help.\n",
+        "n/a at {} of {} loads: the error is larger than the number, because too few cells\ntouch "
+        "and separate; a finer grid or --relative-error may help.\n",
         unstated, result.pressures.size());
   return text;
 }
 
-/// The decay length with its interval, and whether one describes the curve.
+/// The decay length with its interval, and whether an exponential law describes the curve.
 std::string law_line(const StudyResult& result) {
   const EnsembleMean length = result.decay_length(), ratio = result.decay_length_over_rms_height();
   if (std::isnan(length.mean)) return "Force law: no window to fit\n";
@@ -201,7 +201,7 @@ std::string accuracy(const StudyResult& result) {
   return text.empty() ? "" : "Accuracy\n" + text;
 }
 
-/// Conductances and flow of each load with their intervals, as far as the study asks for them.
+/// Conductances and flow factors at each load with their intervals, if the study has them.
 std::string transport_table(const StudyResult& result, const StudySolution& answer) {
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> columns{
       {"h, W/(m² K)", answer.thermal_conductance}, {"C, S/m²", answer.electrical_conductance}};
@@ -227,7 +227,7 @@ std::string transport_table(const StudyResult& result, const StudySolution& answ
   return "\nThrough the contacts\n" + to_table(rows);
 }
 
-/// The adhesive contact at each load, and the cycle.
+/// Tables of the adhesive contact at each load, and of the loading cycle.
 std::string adhesion_table(const StudyResult& result) {
   const Adhesion& adhesion = result.configuration.adhesion->adhesion;
   const auto gap = result.curve(&ForceSample::mean_gap);
@@ -286,11 +286,13 @@ std::string study_text(const StudyResult& result, const StudySolution& answer) {
   text += fmt::format("Damping constant: {}{}\n", motion_text(result.configuration),
                       std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
   const AssumptionReport assumptions = assumptions_of(answer, result);
-  return text + assumptions.warning() + answer_table(result, answer) + notes(result, answer) + "\n" +
-         assumptions.text() + accuracy(result) + law_line(result) + transport_table(result, answer);
+  return text + assumptions.warning() + answer_table(result, answer) + notes(result, answer) +
+         "\n" + assumptions.text() + accuracy(result) + law_line(result) +
+         transport_table(result, answer);
 }
 
-/// What --verbose adds: all models, how the law bends, how the mean settled.
+/// Text of --verbose: results of all models, deviation of the curve from an exponential law,
+/// convergence of the mean.
 std::string details(const StudyResult& result) {
   const bool sample = result.realisations.size() > 1;
   std::string text = "\n" + heading(result) + "Decay length l of pressure = p0 exp(-mean gap/l)\n";
@@ -326,7 +328,7 @@ void run(const StudyArguments& arguments, Session& session) {
 void add_study_command(Program& program) {
   auto arguments = std::make_shared<StudyArguments>();
   Command& command = program.add_command(
-      "study", "from surfaces to damping constants: the whole job",
+      "study", "from surfaces to damping constants in one run",
       {"salebra study data/quickstart.toml -o quickstart.h5",
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
        "--normal-amplitude 1nm --drag-velocity 100nm/s --frequency 20kHz"},
@@ -334,7 +336,7 @@ void add_study_command(Program& program) {
       "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command, true);
   command.add_flag("--verbose", arguments->verbose,
-                   "all models, how the law bends and how the mean settled, after the answer");
+                   "also print all models, how the law bends and how the mean converged");
 }
 
 }  // namespace salebra::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra twin`: one surface from several scans, with what they leave open.
+// `salebra twin`: one surface from several scans, with its uncertainty.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct TwinArguments {
 constexpr std::string_view form_in_words(SpectrumForm form) {
   return form == SpectrumForm::corner   ? "a power law with a corner at the roll-off"
          : form == SpectrumForm::smooth ? "a power law with a smooth roll-off"
-                                        : "no self-affine law, a table";
+                                        : "not self-affine, a table";
 }
 
 std::vector<std::string> row_of(const char* name, const TwinParameter& one, Dimension dimension) {
@@ -59,7 +59,7 @@ std::string twin_text(const SurfaceTwin& twin) {
                     row_of("rms_slope", twin.rms_slope, Dimension::dimensionless)},
                    2, true);
   text +=
-      fmt::format("\nFit: deviance {:.2g} times what is expected; a law is refused above {:g}\n",
+      fmt::format("\nFit: deviance {:.2g} times the expected one; a law is rejected above {:g}\n",
                   twin.misfit, SurfaceTwin::refused_above);
   std::vector<std::vector<std::string>> rows{
       {"instrument", "scans", "used from", "to", "heights times", "misfit"}};
@@ -71,17 +71,17 @@ std::string twin_text(const SurfaceTwin& twin) {
   text += to_table(rows, 2, true);
   for (const TwinWithout& other : twin.without)
     text += fmt::format("Without {}: {}\n", other.instrument,
-                        other.agrees ? "nothing moves by more than chance explains"
-                                     : "the others say something else; look at its calibration");
-  for (const std::string& warning : twin.warnings) text += wrapped(warning + "\n", text_width());
+                        other.agrees
+                            ? "the parameters change by no more than chance"
+                            : "the parameters change by more than chance; check its calibration");
   return text;
 }
 
 constexpr std::string_view list_heading =
-    R"(# Scans of one surface, each at a index chosen at random. Next: salebra twin {0} -o surface.h5
-# Lengths are strings with a unit: "1.5um". A line that begins with "# " and a key is a choice that was not made: take
-# the sign away to make it. Each scan needs an instrument. Beside what stands below it may have: pixel_size, lateral_unit,
-# channel, transpose, detrend, despike, crop = ["0um", "0um", "50um", "50um"], fill, as the options of that name.
+    R"(# Scans of one surface, each at a random index. Next: salebra twin {0} -o surface.h5
+# Lengths are strings with a unit: "1.5um". A line that begins with "# " and a key is an option that is not set: remove
+# "# " to set it. Each scan needs an instrument. More keys, like the options of these names: pixel_size, lateral_unit,
+# channel, transpose, detrend, despike, crop = ["0um", "0um", "50um", "50um"], fill.
 )";
 
 constexpr std::string_view list_entry = R"(
@@ -94,20 +94,21 @@ file = {0}  # {1}
 # resolution = "1.5um"       #   full width at half maximum of the blur
 # instrument = "afm"         # or "stylus": heights dilated by a tip, line by line along x
 # tip_radius = "50nm"
-# line_drift = true          #   lines are offset from each other; so they are of stylus and afm where it is not said
+# line_drift = true          #   lines are offset from each other; default for stylus and afm
 # instrument = "ideal"       # heights as they are, with noise
-# noise = "0.3nm"            # rms; without it found from the spectrum
+# noise = "0.3nm"            # rms; default: estimated from the spectrum
 # height_calibration = "5%"  # standard error of all heights of the instrument
-# scan_calibration = "2%"    # of those of one scan
-# name = "afm in Berlin"     # where two instruments of a kind differ: scans of one name share their calibration
-# weight = 1                 # how many scans of its kind it counts as
+# scan_calibration = "2%"    # standard error of the heights of one scan
+# name = "afm in Berlin"     # to tell two instruments of one kind apart: scans with the same name share their calibration
+# weight = 1                 # number of scans that it counts as
 )";
 
-/// A table of the list, with what the file states itself.
+/// The [[scan]] table for one file in the list of scans. list: name of the file that will hold the
+/// list.
 std::string entry_of(const std::string& file, const std::string& list) {
   ReadOptions options;
   options.undefined = Undefined::keep;
-  std::string comment, size_comment = "instead of the size that the file states";
+  std::string comment, size_comment = "overrides the size that the file states";
   try {
     const Surface surface = read_surface(file, options);
     const Grid2D& grid = surface.grid;
@@ -117,10 +118,10 @@ std::string entry_of(const std::string& file, const std::string& list) {
                     format_quantity(grid.ly, Dimension::length, 4),
                     format_quantity(height_statistics(surface).rms_height, Dimension::length, 3));
   } catch (const InvalidInput&) {
-    // Without a size heights can be read all the same, by any; what else is wrong is said here.
+    // If the file only lacks a size, it can be read with any size. Other errors are thrown here.
     options.size_x = options.size_y = 1e-4;
     const Grid2D grid = read_surface(file, options).grid;
-    comment = fmt::format("{} x {} points, of no stated size", grid.nx, grid.ny);
+    comment = fmt::format("{} x {} points, size not stated", grid.nx, grid.ny);
     size_comment = "needed: the file states none";
   }
   return fmt::format(fmt::runtime(list_entry), toml_file(file, list), comment,
@@ -140,17 +141,16 @@ void write_list(const TwinArguments& arguments, Session& session) {
                                  std::filesystem::path(arguments.list).filename().string());
   for (const std::string& scan : arguments.scans) text += entry_of(scan, arguments.list);
   write_text_file(arguments.list, text, session.write_options());
-  session.answer(
-      Json{{"file", arguments.list}, {"scans", arguments.scans.size()}},
-      fmt::format("{0} is written, a table for each scan. Say what each was made with, then:\n"
-                  "  salebra twin {0} -o surface.h5\n",
-                  arguments.list));
+  session.answer(Json{{"file", arguments.list}, {"scans", arguments.scans.size()}},
+                 fmt::format("{0} is written, with a table for each scan. State the instrument of "
+                             "each scan, then run:\n  salebra twin {0} -o surface.h5\n",
+                             arguments.list));
 }
 
 void run(const TwinArguments& arguments, Session& session) {
   if (arguments.file == "init" && !arguments.list.empty()) return write_list(arguments, session);
   require(arguments.list.empty() && arguments.scans.empty(), "FILE", arguments.file,
-          "is a list that is there; write one with: salebra twin init LIST --files SCAN …");
+          "must be an existing list; write one with: salebra twin init LIST --files SCAN …");
   std::vector<std::string> warnings;
   TwinOptions options{.seed = arguments.seed};
   if (!arguments.form.empty()) options.form = parse_enum<SpectrumForm>(arguments.form);
@@ -164,7 +164,7 @@ void run(const TwinArguments& arguments, Session& session) {
   answer["groups"] = to_json(twin.groups);
   answer["scans"] = to_json(twin.scans);
   for (const TwinWithout& other : twin.without) answer["without"].push_back(answer_json(other));
-  answer["notes"] = twin.warnings;
+  session.warn(twin.warnings);
   session.answer(answer, twin_text(twin));
 }
 
@@ -173,23 +173,23 @@ void run(const TwinArguments& arguments, Session& session) {
 void add_twin_command(Program& program) {
   auto arguments = std::make_shared<TwinArguments>();
   Command& command = program.add_command(
-      "twin", "one surface from several scans, and what stays open",
+      "twin", "one surface from several scans, with its uncertainty",
       {"salebra twin scans.toml -o surface.h5 --plot surface.png",
        "salebra twin init scans.toml --files wli.sur afm-1.gwy afm-2.gwy"},
       [arguments](Session& session) { run(*arguments, session); },
       "the spectrum with its 95 % band, and that of each instrument");
   command
       .add_option("FILE", arguments->file,
-                  "TOML file with a table [[measurement]] for each scan: file, instrument, and "
-                  "its resolution or tip_radius; or init, which writes LIST to start from")
+                  "TOML file with a table [[measurement]] for each scan: file, instrument, and its "
+                  "resolution or tip_radius; or init, to write such a file as LIST")
       ->required()
       ->file(FileUse::input);
   command.add_option("LIST", arguments->list, "with init: the list of scans to write")
       ->type_name("LIST");
   command.add_option("--files", arguments->scans, "with init: the scans")->file(FileUse::input);
   add_choice<SpectrumForm>(command, "--form", arguments->form,
-                           "how the spectrum falls from its plateau; default: by likelihood");
-  add_seed(command, arguments->seed, "of the draws; default 1");
+                           "how the spectrum falls from its plateau; default: the likelier form");
+  add_seed(command, arguments->seed, "seed of the draws; default 1");
 }
 
 }  // namespace salebra::cli

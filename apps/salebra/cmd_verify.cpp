@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra verify`: check of the installation against known solutions.
+// `salebra verify`: checks the installation against known solutions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 void run(Session& session) {
   require(!session.has_output(), "--output", session.output().string(),
-          "is not for this command, which writes no file; use --json and redirect");
+          "is not an option of verify, which writes no file; use --json and redirect");
   const auto checks = verify_installation(session.progress());
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};
@@ -32,7 +32,7 @@ void run(Session& session) {
       to_table(rows, 0, true) + fmt::format("{} of {} checks passed\n",
                                             checks.size() - std::size_t(failed), checks.size()));
   if (failed > 0)
-    throw Error(fmt::format("verify: {} checks failed; do not trust this build", failed));
+    throw Error(fmt::format("verify: {} checks failed; do not use this build", failed));
 }
 
 }  // namespace

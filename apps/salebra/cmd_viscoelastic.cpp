@@ -7,13 +7,13 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/damping/viscoelastic_damping.hpp>  // the loss of rubber has one face
+#include <salebra/damping/viscoelastic_damping.hpp>  // analysis/ has no problem for it
 
+#include "assumption_options.hpp"
 #include "damping/phase_quadrature.hpp"
 #include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
-#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 
@@ -30,7 +30,7 @@ struct ViscoelasticArguments {
   AssumptionOptions assumptions;
 };
 
-/// "G1:tau1,G2:tau2".
+/// Reads terms written as "G1:tau1,G2:tau2", modulus and relaxation time.
 std::vector<PronyTerm> parse_terms(const std::string& text) {
   std::vector<PronyTerm> terms;
   std::string moduli, times;
@@ -39,14 +39,14 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
     const std::string term = text.substr(begin, end - begin);
     const std::size_t colon = term.find(':');
     require(colon != term.npos, "--prony", '\'' + term + '\'',
-            "is not MODULUS:TIME; give for example 10MPa:1ms,2MPa:0.1s");
+            "is not of the form MODULUS:TIME; write for example 10MPa:1ms,2MPa:0.1s");
     terms.push_back({parse_quantity(term.substr(0, colon), Dimension::pressure, "--prony"),
                      parse_quantity(term.substr(colon + 1), Dimension::time, "--prony")});
     moduli += (begin > 0 ? "," : "") + term.substr(0, colon);
     times += (begin > 0 ? "," : "") + term.substr(colon + 1);
     begin = end + 1;
   }
-  // Refuses a list with units at some of its numbers alone.
+  // Refuses a list in which only some of the moduli, or only some of the times, have units.
   parse_values(moduli, Dimension::pressure, "--prony");
   parse_values(times, Dimension::time, "--prony");
   return terms;
@@ -100,10 +100,10 @@ std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
   if (const auto lost = std::ranges::count_if(
           losses, [](const ViscoelasticLoss& one) { return !one.damping.converged; });
       lost > 0)
-    throw NotConverged(fmt::format(
-        "viscoelastic: {} of {} steady states were not found; relaxation times beyond 1e9 periods "
-        "belong to the relaxed modulus or are left out",
-        lost, losses.size()));
+    throw NotConverged(
+        fmt::format("viscoelastic: {} of {} steady states were not found; add relaxation times "
+                    "beyond 1e9 periods to the relaxed modulus or leave them out",
+                    lost, losses.size()));
   return losses;
 }
 
@@ -114,8 +114,9 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   if (arguments.motion.mode != "drag" && !arguments.motion.frequency.given())
     missing.emplace_back("--frequency (or --angular-frequency)");
   require_options(missing, "the loss on a viscoelastic body");
-  require(arguments.material.young.size() <= 1, "--young", arguments.material.young.size(),
-          "bodies are given; the indenter is rigid, give the relaxed modulus of the other body");
+  require(
+      arguments.material.young.size() <= 1, "--young", arguments.material.young.size(),
+      "values given; the indenter is rigid, so give only the relaxed modulus of the other body");
   const Material material = arguments.material.material_with_tangential_modulus();
   const PronySeries prony = PronySeries::of_body(material, parse_terms(arguments.prony));
   prony.validate();
@@ -133,9 +134,10 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
       losses_of(arguments, law, prony, indentation, session);
   AssumptionReport assumptions{.list = true, .body = "relaxed elastic body"};
   for (const Oscillation& motion : arguments.motion.motions())
-    assumptions.cases.push_back(assumptions_of(law, indentation, motion,
-                                         at_state(known, law, nullptr, indentation,
-                                                  indentation + detail::normal_amplitude(motion))));
+    assumptions.cases.push_back(
+        assumptions_of(law, indentation, motion,
+                       at_state(known, law, nullptr, indentation,
+                                indentation + detail::normal_amplitude(motion))));
 
   Json answer = json_of(state_of(*any_law, indentation));
   answer.add(json_of(prony));
@@ -166,22 +168,22 @@ void add_viscoelastic_command(Program& program) {
   arguments->indenter.add_to(command);
   command.under("Position");
   add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
-               "mean, from first touch");
+               "mean indentation from first touch");
   add_quantity(command, "--normal-force", arguments->force, Dimension::force,
-               "of the relaxed contact at rest");
+               "normal force of the relaxed contact at rest");
   arguments->material.add_to(command);
   command.under("Material");
   command
       .add_option("--prony", arguments->prony,
-                  "terms G1:T1,G2:T2,... of the shear relaxation modulus, added to the relaxed one "
-                  "of the other options: 3MPa:20ms")
+                  "terms G1:T1,G2:T2,... of the shear relaxation modulus, such as 3MPa:20ms, added "
+                  "to the relaxed modulus of the other options")
       ->type_name("LIST");
   command.under("Options");
   arguments->motion.add_to(command);
-  add_steps(command, arguments->steps, "straight steps of a cycle; default 512")
-      ->range(16, 1000000);
+  add_steps(command, arguments->steps, "straight steps per cycle; default 512")->range(16, 1000000);
   command
-      .add_option("--springs", arguments->springs, "in the ring that opens and closes; default 200")
+      .add_option("--springs", arguments->springs,
+                  "number of springs in the ring that opens and closes; default 200")
       ->range(8, 1000000);
   arguments->assumptions.add_to(command);
 }

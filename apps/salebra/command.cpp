@@ -18,7 +18,7 @@ std::vector<std::string> split(const std::string& names) {
   return parts;
 }
 
-/// Kind of value of an option that names none.
+/// The kind of value (as in "--points NUMBER") of an option for which type_name() was not called.
 std::string type_of(const Option::Target& target) {
   if (std::holds_alternative<std::monostate>(target) || std::holds_alternative<bool*>(target))
     return "";

@@ -11,71 +11,73 @@
 #include <variant>
 #include <vector>
 
-/// What a command takes. Commands declare it here; program.cpp alone knows the library that parses
-/// the command line, and hands it over. Help and completion read the same declarations.
+/// Options and arguments of commands. Only program.cpp knows the library that parses the command
+/// line and passes these declarations to it. Help and completion read them too.
 namespace salebra::cli {
 
 /// Heading of the options that every command has.
 inline constexpr const char* common_options = "Options of every command";
 
-/// What a command does with a file that an option names.
+/// What a command does with the file that an option names.
 enum class FileUse {
   none,   ///< the option names no file
-  input,  ///< reads it
-  output  ///< writes it
+  input,  ///< the command reads the file
+  output  ///< the command writes the file
 };
 
-/// An option, a flag or a positional argument. What is set here returns the option, so that one
-/// declaration is one expression.
+/// An option, a flag or a positional argument. Setters return the option, so that a declaration is
+/// one expression.
 class Option {
  public:
-  /// Where a given value goes, converted; a flag is a bool. --help has no place.
+  /// The variable that receives the converted value; a flag sets a bool, --help sets nothing.
   using Target = std::variant<std::monostate, bool*, std::string*, int*, std::optional<int>*,
                               std::vector<std::string>*, std::function<void(const std::string&)>>;
-  /// Says what is wrong with a text; empty if nothing is.
+  /// Returns the error message for the text of a value; empty if the text is valid.
   using Check = std::function<std::string(const std::string&)>;
 
-  /// names: "-o,--output", or the one name of a positional argument.
+  /// names: "-o,--output" for an option, or the name of a positional argument.
   Option(const std::string& names, Target target, std::string help);
 
-  /// Heading under which the help lists it, in place of that of the command.
+  /// Sets the heading under which the help lists the option; default: the current heading of the
+  /// command.
   Option* group(std::string name);
-  /// Kind of value, such as FILE.
+  /// Sets the kind of value that the help shows, such as FILE.
   Option* type_name(std::string name);
-  /// Names a file: FILE. partner: another option that may name the file that this one writes.
+  /// Declares that the value is the name of a file. partner: an option that may name the same file
+  /// as this option.
   Option* file(FileUse use, std::string partner = "");
   Option* required(bool needed = true);
-  /// Takes a number, and stands for this one where none follows.
+  /// Sets the number that the option has if the command line gives it without a number.
   Option* value_without(std::string number);
-  /// The only values allowed; a misspelt one is answered with the nearest.
+  /// Sets the allowed values; the error for a misspelt value suggests the nearest.
   Option* choices(std::vector<std::string> values);
-  /// For whole numbers, both ends included.
+  /// Sets the range of a whole number, both ends included.
   Option* range(int least, int greatest);
   Option* check(Check check);
-  /// One argument may hold several values, with this between them.
+  /// Allows several values in one argument, separated by this character.
   Option* delimiter(char separator);
 
   const std::vector<std::string>& names() const { return names_; }
   const Target& target() const { return target_; }
   const std::string& help() const { return help_; }
   const std::string& group() const { return group_; }
-  /// Empty for a flag.
+  /// The kind of value; empty for a flag.
   const std::string& type_name() const { return type_name_; }
   const std::vector<std::string>& choices() const { return choices_; }
-  /// The help's text has the choices in it: "a | b | c".
+  /// Whether the help text already lists the choices: "a | b | c".
   bool help_lists_choices() const;
   const std::optional<std::pair<int, int>>& range() const { return range_; }
   const Check& check() const { return check_; }
   std::optional<char> delimiter() const { return delimiter_; }
   FileUse file_use() const { return file_use_; }
   const std::string& partner() const { return partner_; }
-  /// The files that were named.
+  /// Names of the files that the command line gave for this option.
   std::vector<std::string> files() const;
   bool positional() const { return names_.front().front() != '-'; }
   bool required() const { return required_; }
-  /// Empty where a value must follow.
+  /// The number for an option given without one; empty if a number must follow.
   const std::string& value_without() const { return value_without_; }
-  /// Whether the command line has it.
+  /// Whether the command line contains the option.
   bool given() const { return given_; }
   void note_given() { given_ = true; }
 
@@ -93,18 +95,21 @@ class Option {
 
 class Command {
  public:
-  /// what: in one line. examples: two command lines. action: runs after all options have been read.
+  /// what: one line for the list of commands. examples: two command lines for the help. action:
+  /// runs the command after all options have been read.
   Command(std::string name, std::string what, std::array<std::string, 2> examples,
           std::function<void()> action);
 
-  /// Heading under which the help lists what is declared from here on. Returns the one before.
+  /// Sets the heading under which the help lists the options that are declared next. Returns the
+  /// previous heading.
   std::string under(std::string heading) { return std::exchange(heading_, std::move(heading)); }
-  /// Targets must outlive the parsing. An option stays where it is.
+  /// Declares an option that sets `target`, which must outlive the parsing of the command line. The
+  /// returned pointer stays valid.
   template <class T>
   Option* add_option(const std::string& names, T& target, std::string help) {
     return add(names, &target, std::move(help));
   }
-  /// read: is given the text, and may throw InvalidInput.
+  /// Declares an option whose text is passed to read(), which may throw InvalidInput.
   Option* add_option_function(const std::string& names,
                               std::function<void(const std::string&)> read, std::string help) {
     return add(names, std::move(read), std::move(help));
@@ -120,7 +125,8 @@ class Command {
   /// The options in the order of their declaration, --help first.
   const std::deque<Option>& options() const { return options_; }
   std::deque<Option>& options() { return options_; }
-  /// Throws InvalidInput with the reason where an option under that heading was given.
+  /// Throws InvalidInput with this reason if the command line gave an option under the heading
+  /// `group`.
   void require_none_of(std::string_view group, std::string_view reason) const;
 
  private:
@@ -133,7 +139,7 @@ class Command {
   std::string heading_ = "Options";
 };
 
-/// Options that are declared while it lives stand under this heading.
+/// Puts all options that are declared during its lifetime under this heading.
 class Heading {
  public:
   Heading(Command& command, std::string name)

@@ -28,8 +28,8 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
           .high = column(y, &EnsembleMean::high)};
 }
 
-/// γ as the table of the study prints it: of the motion as described, with the 95 % interval of the
-/// surfaces or, where one surface has none, the numerical error.
+/// Adds γ of the motion as the user described it, with the same numbers as the table of the study:
+/// with the 95 % interval over the surfaces or, for one surface, the numerical error.
 void add_answer(const StudyResult& result, PlotPanel& damping) {
   const StudySolution answer = solution_of(result);
   const bool sample = result.realisations.size() > 1;
@@ -56,7 +56,8 @@ void add_answer(const StudyResult& result, PlotPanel& damping) {
   damping.curves.push_back(std::move(points));
 }
 
-/// The window of the fit, what the theories of vanishing load say, and the law with the fitted l.
+/// Adds the window of the fit, the limits of theories for vanishing load, and the exponential law
+/// with the fitted decay length l.
 void add_references(const StudyResult& result, std::array<PlotPanel, 4>& panels) {
   auto& [gaps, areas, stiffness, damping] = panels;
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
@@ -83,7 +84,8 @@ void add_references(const StudyResult& result, std::array<PlotPanel, 4>& panels)
   damping.curves.push_back(std::move(law));
 }
 
-/// Gap, area, stiffness and damping over the pressure of one point, with bands of 95 %.
+/// Panels of one point of the parameter grid: gap, area, stiffness and damping over the pressure,
+/// with bands of 95 %.
 std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   std::array<PlotPanel, 4> panels;
   auto& [gaps, areas, stiffness, damping] = panels;
@@ -108,7 +110,8 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
                                                           : ForceSample::unknown;
       });
     };
-    // The place among all models decides: a model keeps its colour whatever is drawn beside it.
+    // Models are numbered as in the list of all models, and the number sets the colour, so each
+    // model has the same colour in every figure.
     const auto add = [&](PlotPanel& panel, const std::vector<EnsembleMean>& y) {
       panel.curves.push_back(band("", result.pressures, y));
       panel.curves.back().color = int(model.id);
@@ -132,7 +135,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   return panels;
 }
 
-/// Whether an axis can be laid out for the values: not where no model knows the quantity.
+/// Whether a panel has a finite value to show; false if no model computes its quantity.
 bool shows_anything(const PlotPanel* panel) {
   return std::ranges::any_of(panel->curves, [&](const PlotCurve& curve) {
     return std::ranges::any_of(curve.y, [&](double value) {
@@ -141,7 +144,8 @@ bool shows_anything(const PlotPanel* panel) {
   });
 }
 
-/// Limits that hold all curves with their bands, so that panels beside each other can be compared.
+/// Gives all panels the same limits, which contain all their curves and bands, so that they can be
+/// compared.
 void share_limits(const std::vector<PlotPanel*>& panels) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PlotPanel* panel : panels)
@@ -176,7 +180,7 @@ Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLi
     if (row.size() > 1) share_limits(row);
     for (std::size_t i = 0; i < points.size(); ++i) {
       PlotPanel& panel = points[i][quantity];
-      // The first column explains the lines of all.
+      // Only panels in the first column have a legend.
       if (i > 0)
         for (PlotCurve& curve : panel.curves) curve.name.clear();
       if (quantity == 0 && points.size() > 1)

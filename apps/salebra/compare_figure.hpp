@@ -8,10 +8,11 @@
 
 namespace salebra::cli {
 
-/// Gap, area, stiffness and damping of all models over the pressure, with bands of 95 %, and γ of the
-/// answer's table with its errors. What no model knows has no panel. One point: a square of four
-/// panels. Several: a column for each, whose panels share their axes along
-/// a row. varied: what tells the points apart.
+/// Draws gap, area, stiffness and damping of all models over the pressure, with 95 % bands, and the
+/// damping constants of the study's table with their errors. A quantity that no model computes has
+/// no panel. One point of the parameter grid gives a square of four panels. Several points give a
+/// column each, and the panels of a row share their axes. varied: the parameters whose values are
+/// the titles of the columns.
 Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLists& varied);
 
 }  // namespace salebra::cli

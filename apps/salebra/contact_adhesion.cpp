@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra contact --work-of-adhesion`: what adhesion asks of options, and several operating points with it,
-// in and out.
+// `salebra contact --work-of-adhesion`: several operating points with adhesion, in loading and then
+// in unloading.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@
 namespace salebra::cli {
 namespace {
 
-/// The states of a branch that converged, as the command answers with them.
+/// The converged states of loading or of unloading, as the answer lists them.
 struct Branch {
   ForceCurve curve;
   std::vector<AdhesionOfState> adhesion;
   std::vector<FlowFactors> flow;
-  std::vector<CurveColumn> beside;  ///< the curve, of json()
+  std::vector<CurveColumn> beside;  ///< columns in addition to those of ForceCurve; set by json()
 
   void add(const Branch& other, std::size_t index) {
     curve.samples.push_back(other.curve.samples[index]);
@@ -59,7 +59,7 @@ void require_converged(const AdhesiveCycle& cycle) {
                   last.outer_iterations, in_options(message(last.termination))));
 }
 
-/// In the first process.
+/// Writes both branches to --output; only the first process writes.
 void write(const Branch& loading, const Branch& unloading, const AdhesiveCycle& cycle,
            const Session& session) {
   if (!session.has_output() || !session.communicator().is_root()) return;
@@ -130,8 +130,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
     answer.add(json_of(cycle));
     if (std::isnan(cycle.adhesion_work_per_cycle) && arguments.pressures_on(area).empty())
       session.warn(
-          "the branches of the cycle do not meet at its outermost operating point, and it has no "
-          "work; "
+          "the branches of the cycle do not meet at its outermost point, so its work is not known; "
           "begin farther out");
   }
   answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checkpoints of a contact while it is solved, of contact_checkpoint.hpp.
+// Checkpoints of a contact while it is solved (contact_checkpoint.hpp).
 #include "contact_checkpoint.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +17,10 @@
 namespace salebra::cli {
 namespace {
 
-/// An answer of the root.
+/// Whether the first process sees the file; all processes get its answer.
 bool is_there(const Session& session, const std::string& file) {
-  return session.communicator().all_agree(!session.communicator().is_root() || std::filesystem::exists(file));
+  return session.communicator().all_agree(!session.communicator().is_root() ||
+                                          std::filesystem::exists(file));
 }
 
 constexpr const char* mark = "checkpoint";
@@ -32,10 +33,9 @@ bool is_checkpoint(const std::string& file) {
 
 void ContactCheckpoint::add_to(Command& command) {
   command
-      .add_option(
-          "--checkpoint", file,
-          "file that keeps the pressure while the contact is solved, for --initial; removed "
-          "once it has converged")
+      .add_option("--checkpoint", file,
+                  "file in which the pressure is kept while the contact is solved, to continue "
+                  "with --initial; removed once the contact has converged")
       ->file(FileUse::output, "--initial");
   add_quantity(command, "--checkpoint-every", every, Dimension::time,
                "time between checkpoints; default 10 min, 0 for every iteration");
@@ -50,14 +50,15 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
   collectively(session.communicator(), [&] {
     if (!session.communicator().is_root()) return;
     const bool replaces = session.write_options().overwrite || same_file(file, initial);
-    require_that(
-        replaces || !std::filesystem::exists(file), file,
-        "exists; continue from it with --initial " + file + ", or add --overwrite to start anew");
-    // A checkpoint is removed at the end: a result that the user kept is none.
+    require_that(replaces || !std::filesystem::exists(file), file,
+                 "exists already; continue from it with --initial " + file +
+                     ", or add --overwrite to start anew");
+    // A checkpoint is removed at the end of the run. If --initial names the same file, it must be a
+    // checkpoint and not a result that the user wants to keep.
     require(
         !same_file(file, initial) || !std::filesystem::exists(file) || is_checkpoint(file),
         "--checkpoint", file,
-        "is a result, which --initial reads and the checkpoint would replace; name another file");
+        "is a result that --initial reads, and the checkpoint would replace it; name another file");
     require_output(file, {.overwrite = true});
   });
 }
@@ -81,7 +82,8 @@ bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field&
   try {
     std::optional<ResultFile> result;
     collectively(session.communicator(), [&] {
-      result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.communicator());
+      result.emplace(file, session.provenance(), WriteOptions{.overwrite = true},
+                     session.communicator());
       QuantityGroup group(result->group("contact"));
       group.axes(grid);
       group.plain().attribute(mark, std::string("yes"));
@@ -90,10 +92,10 @@ bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field&
     result->commit();
     return true;
   } catch (const IoError& error) {
-    session.warn(fmt::format("--checkpoint: {}; the file before stays", error.what()));
+    session.warn(fmt::format("--checkpoint: {}; the earlier checkpoint is kept", error.what()));
   } catch (const std::bad_alloc&) {
     session.warn(fmt::format(
-        "--checkpoint: {}: not enough memory to write it; the file before stays", file));
+        "--checkpoint: {}: not enough memory to write it; the earlier checkpoint is kept", file));
   }
   return false;
 }

@@ -11,23 +11,24 @@ namespace salebra::cli {
 
 class Command;
 
-/// The file that keeps the pressure of a contact while it is solved: a result of `contact` with the
-/// pressure alone, from which --initial starts.
+/// A file that keeps the pressures of a contact while the contact is solved. It has the format of a
+/// result of `salebra contact` with only the pressures, so --initial can start from it.
 struct ContactCheckpoint {
-  std::string file;             ///< empty: none
-  std::optional<double> every;  ///< s
+  std::string file;             ///< name of the file; empty: no checkpoint
+  std::optional<double> every;  ///< time between two checkpoints, s
 
   void add_to(Command& command);
-  /// Refuses what cannot be written before the work. Collective.
+  /// Throws InvalidInput before the work if the file cannot be written. All processes must call.
   void check(const Session& session, const std::string& initial) const;
-  /// Whether --initial names this file, which is not there yet: the first run of a command that is
-  /// repeated until it ends. Collective.
+  /// Whether --initial names this file and the file does not exist yet. This is so in the first run
+  /// of a command line that the user repeats until it finishes. All processes must call.
   bool starts_anew(const Session& session, const std::string& initial) const;
-  /// Lets a contact on that grid write it. The session and the grid outlive the options.
+  /// Sets `options` so that a contact on this grid writes the file while it is solved. Session and
+  /// grid must outlive `options`.
   void add_to(NormalContactOptions& options, Session& session, const Grid2D& grid) const;
-  /// Replaces the file; where that fails, warns and keeps the old one. Nothing is written of a
-  /// contact without pressure, which was stopped on a coarser grid. Returns whether the file has
-  /// that pressure. Collective.
+  /// Replaces the file; if this fails, warns and keeps the old file. A contact that was stopped on
+  /// a coarser grid has no pressures on this grid and is not written. Returns whether the file now
+  /// holds `pressure`. All processes must call.
   bool write(Session& session, const Grid2D& grid, const Field& pressure) const;
   void remove(const Session& session) const;
 };

@@ -4,7 +4,7 @@
 #include <optional>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
-#include <salebra/contact/sweep.hpp>  // processes that share a surface have this face alone
+#include <salebra/contact/sweep.hpp>  // analysis/ takes one process only
 #include <salebra/results/force_curve_file.hpp>
 #include <string>
 #include <string_view>
@@ -15,8 +15,8 @@
 #include "options.hpp"
 #include "results/columns.hpp"
 
-/// What `contact` was given, and its answers for one operating point, for several, and by the theory of
-/// Greenwood and Williamson.
+/// Arguments of `salebra contact`, and its answers for one operating point, for several, and by the
+/// theory of Greenwood and Williamson.
 namespace salebra::cli {
 
 struct ContactArguments {
@@ -30,14 +30,14 @@ struct ContactArguments {
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;
   bool flow_factors = false;
-  std::optional<int> distributions;  ///< bins
+  std::optional<int> distributions;  ///< number of bins of the distributions of pressure and gap
   Conduction conduction;
   std::optional<double> work_of_adhesion, adhesion_range;
   std::string potential = "exponential";
   bool cycle = false, force_coarse = false;
   std::optional<double> tolerance, hardness;
   int max_iterations = NormalContactOptions().max_iterations;
-  int groups = 0;  ///< 0: as many as memory holds
+  int groups = 0;  ///< groups of processes that share the loads; 0: as many as memory allows
   DryRunOptions dry_run;
 
   std::string initial, residual, fields, field_type;
@@ -46,9 +46,11 @@ struct ContactArguments {
   std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
 
-  /// The number of operating points. Throws InvalidInput unless they are of one kind and, without adhesion, > 0.
+  /// Number of operating points. Throws InvalidInput unless all are given by the same control
+  /// quantity and, without adhesion, are > 0.
   std::size_t count() const;
-  /// p, Pa, of pressures and forces, from the lowest; empty for other operating points.
+  /// Nominal pressures, sorted, Pa, if the operating points are pressures or forces; empty
+  /// otherwise. area: nominal area, m².
   std::vector<double> pressures_on(double area) const;
   NormalContactOptions contact_options(Session& session) const;
   bool adhesive() const { return work_of_adhesion.has_value(); }
@@ -59,16 +61,18 @@ struct ContactArguments {
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 
-/// The state of the surface at one operating point, by boundary elements.
+/// Answers with the state of the surface at one operating point, by boundary elements.
 void press_once(const ContactArguments& arguments, Session& session);
-/// The force curve of the surface at several pressures, by boundary elements.
+/// Answers with the force curve of the surface at several pressures, by boundary elements.
 void press_often(const ContactArguments& arguments, Session& session);
-/// Several operating points with adhesion, each from the one before, and back.
+/// Solves contacts with adhesion at several operating points in loading, each from the one before,
+/// and then in unloading.
 void press_adhesively(const ContactArguments& arguments, Session& session);
-/// The force curve of summits, those of the surface or of parameters.
+/// Answers with the force curve of summits by a Greenwood–Williamson model, with the summits of a
+/// surface or from given parameters.
 void press_summits(const ContactArguments& arguments, Session& session);
 
-/// One or several conductances, without those that were not asked about.
+/// JSON of one or several conductances, as far as they were requested.
 template <class Found>
 Json conductances_json(const Found& found, const Conduction& asked) {
   Json object = json_of(found);
@@ -77,26 +81,27 @@ Json conductances_json(const Found& found, const Conduction& asked) {
   return object;
 }
 inline constexpr const char* flow_failure =
-    "contact: flow factors that are null where the gap percolates did not converge, as happens "
-    "close to the load at which it closes; the other numbers stand";
-/// The flow factors of a converged state; those that did not converge are unknown.
+    "contact: flow factors that are null although the gap percolates did not converge, as happens "
+    "close to the load at which it closes; the other numbers are valid";
+/// Computes the flow factors of a converged state. Factors whose solve did not converge are
+/// unknown.
 FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress);
-/// Adds to the columns what was asked about beside the curve, and returns it.
-/// flow: of each sample; empty: not asked
+/// Adds the requested quantities to the columns of the JSON answer, and returns them as columns of
+/// the file. flow: flow factors of each sample; empty if they were not requested.
 std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const ForceCurve& curve,
                                     const std::vector<FlowFactors>& flow, Json& columns);
-/// Writes the curve and answers, with the conductances where they were asked about.
-/// answer: has the `curve`, and what the command says beside it.
+/// Writes the file of the curve and prints the answer, with the conductances if they were
+/// requested. answer: contains the key `curve` and the other results of the command.
 void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
                   Session& session, const std::vector<FlowFactors>& flow = {});
 
-/// A list for each column of ForceSample, without separation and stiffnesses per area where no
-/// sample has them.
+/// JSON with a list for each column of ForceSample. Separation and stiffnesses per area are left
+/// out if no sample has them.
 Json to_json(const ForceCurve& curve);
 
-/// Answers --dry-run.
+/// Prints the estimated cost of the contacts, for --dry-run.
 void estimate_contacts(const ContactArguments& arguments, Session& session);
-/// Groups of processes that share the loads of several operating points. Collective.
+/// Number of groups of processes among which the loads are divided. All processes must call.
 int contact_groups(const ContactArguments& arguments, Session& session);
 
 }  // namespace salebra::cli

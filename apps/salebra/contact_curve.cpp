@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several operating points of `salebra contact`: a force curve, the groups of processes that share it, and
-// what contacts would cost.
+// Several operating points of `salebra contact`: the force curve, the groups of processes that
+// share it, and the estimated cost.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,12 +17,14 @@
 namespace salebra::cli {
 namespace {
 
-/// Surfaces that are generated take as many groups as memory holds; a file is read once.
+/// Number of groups of processes. For generated surfaces it is the largest one that memory allows;
+/// a file is read once, by one group.
 int groups_of(const ContactArguments& arguments, const SurfaceWork& work, const Session& session) {
   if (arguments.groups > 0) return arguments.groups;
   if (arguments.surface.recipe.empty() || work.ranks == 1 || work.loads.size() == 1) return 1;
   return groups_that_fit(work, [&](double bytes) {
-    if (!arguments.dry_run.dry_run) return memory_of_nodes(bytes, session.communicator()).suffices();
+    if (!arguments.dry_run.dry_run)
+      return memory_of_nodes(bytes, session.communicator()).suffices();
     const double available = static_cast<double>(available_memory());
     return available == 0 || bytes * std::ceil(double(work.ranks) / work.nodes) <= available;
   });
@@ -34,7 +36,8 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
   const double unit = arguments.material.material().contact_modulus * outline.rms_slope;
   for (const double pressure : arguments.pressures_on(outline.grid.area()))
     work.loads.push_back(pressure / unit);
-  // A gap or an indentation does not tell the load: contact on a tenth of the cells is assumed.
+  // A gap or an indentation does not tell the load, which decides the cost. A load of 0.05 E*h' is
+  // assumed, at which about a tenth of the cells are in contact.
   if (work.loads.empty()) work.loads = {0.05};
   work.normal_stiffness = arguments.wants_stiffness();
   work.tangential_stiffness = arguments.stick;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One operating point of `salebra contact` by boundary elements, without adhesion and with it.
+// One operating point of `salebra contact` by boundary elements, with or without adhesion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
-#include <salebra/contact/normal/distributions.hpp>  // a picture of one state
+#include <salebra/base/row_partition.hpp>
+#include <salebra/contact/normal/distributions.hpp>  // analysis/ has no problem for it
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 
@@ -30,14 +30,15 @@ OperatingPoint point_of(const ContactArguments& arguments, const Surface& surfac
   return at_pressure(arguments.pressures_on(surface.grid.area()).front());
 }
 
-/// Whether the contact of any process reaches the edge.
+/// Whether cells at the edge of the surface are in contact, in any process.
 bool reaches_edge(const Surface& surface, const Field& pressure) {
   const RowPartition partition = surface.partition();
   const Index rows = pressure.rows(), columns = pressure.cols();
   const bool reached =
-      pressure.size() > 0 && ((partition.begin() == 0 && (pressure.row(0) > 0).any()) ||
-                              (partition.end() == partition.rows() && (pressure.row(rows - 1) > 0).any()) ||
-                              (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
+      pressure.size() > 0 &&
+      ((partition.begin() == 0 && (pressure.row(0) > 0).any()) ||
+       (partition.end() == partition.rows() && (pressure.row(rows - 1) > 0).any()) ||
+       (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
   return !surface.communicator.all_agree(!reached);
 }
 
@@ -49,7 +50,8 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
   const bool has_gap = has_pressure && arguments.fields != "pressure";
   std::optional<ResultFile> file;
   collectively(session.communicator(), [&] {
-    file.emplace(session.output(), session.provenance(), session.write_options(), session.communicator());
+    file.emplace(session.output(), session.provenance(), session.write_options(),
+                 session.communicator());
     QuantityGroup group(file->group("contact"));
     if (has_pressure) group.axes(grid);
     if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
@@ -72,13 +74,13 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
   file->commit();
 }
 
-/// The largest pressure of all processes.
+/// The largest contact pressure over all processes, Pa.
 double max_pressure(const Communicator& communicator, const NormalContactState& state) {
   return -communicator.min_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
-                                                           : 0.0);
+                                                                : 0.0);
 }
 
-/// Reads the rows of this process.
+/// Reads the pressures of a file for the rows of this process.
 Field read_initial(const std::string& file, const RowPartition& partition) {
   const ResultReader reader(file);
   const std::string pressure = "contact/contact_pressure";
@@ -89,7 +91,7 @@ Field read_initial(const std::string& file, const RowPartition& partition) {
   return reader.field(pressure, partition);
 }
 
-/// The operating point from the surface to the answer, step by step.
+/// The steps from the surface to the answer at one operating point.
 class OneContact {
  public:
   OneContact(const ContactArguments& arguments, Session& session)
@@ -126,13 +128,13 @@ class OneContact {
                              : "contact: interrupted; nothing was written");
     if (options_.boundary == Boundary::free && reaches_edge(surface_, state_.contact_pressure))
       session_.warn(
-          "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
-          "or take a larger piece of the surface");
+          "the contact reaches the edge of the surface, where the surface ends; reduce the load or "
+          "use a larger surface");
   }
 
   void answer() {
-    answer_ =
-        json_of(ContactPressures{state_.mean_pressure, max_pressure(session_.communicator(), state_)});
+    answer_ = json_of(
+        ContactPressures{state_.mean_pressure, max_pressure(session_.communicator(), state_)});
     answer_.add(json_of<NormalContactState>(state_));
     if (arguments_.adhesive()) add_adhesion();
     answer_["seconds"] = seconds_;
@@ -155,10 +157,11 @@ class OneContact {
   }
 
  private:
-  /// From an earlier contact, where one is given.
+  /// Reads the pressures of an earlier contact as start of the solve, if --initial was given.
   void start() {
     if (arguments_.checkpoint.starts_anew(session_, arguments_.initial)) {
-      session_.inform(arguments_.initial + " is not there yet: the contact starts anew");
+      session_.inform(arguments_.initial +
+                      " does not exist yet: the contact starts from the beginning");
     } else if (!arguments_.initial.empty()) {
       collectively(session_.communicator(),
                    [&] { initial_ = read_initial(arguments_.initial, surface_.partition()); });
@@ -249,7 +252,7 @@ class OneContact {
   AdhesiveContactState state_;
   double seconds_ = 0;
   Json answer_;
-  std::vector<CurveColumn> beside_;  ///< what the file has beside the state
+  std::vector<CurveColumn> beside_;  ///< columns of the file in addition to those of the state
   FlowFactors flow_;
   ContactDistributions distributions_;
 };

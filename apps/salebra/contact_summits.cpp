@@ -2,7 +2,7 @@
 // `salebra contact --model gw_…`: Greenwood-Williamson curves of a surface or of given parameters.
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity/greenwood_williamson.hpp>  // a theory that has one face
+#include <salebra/contact/asperity/greenwood_williamson.hpp>  // analysis/ has no problem for it
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
@@ -12,7 +12,7 @@
 namespace salebra::cli {
 namespace {
 
-/// A model with the ensemble that describes it.
+/// A Greenwood–Williamson model, and the ensemble of summits that describes the surface.
 struct DescribedModel {
   std::unique_ptr<AsperityModel> model;
   SummitEnsemble ensemble;
@@ -26,7 +26,7 @@ DescribedModel of_surface(const ContactArguments& arguments, const Material& mat
                           Session& session) {
   arguments.command->require_none_of(
       "Summits without a surface",
-      "given together with a surface, which has its own summits; leave out one of them");
+      "given together with a surface, which has its own summits; leave out one of the two");
   const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
   if (arguments.model == "gw_deterministic") {
@@ -46,7 +46,7 @@ DescribedModel of_surface(const ContactArguments& arguments, const Material& mat
 }
 
 DescribedModel of_parameters(const ContactArguments& arguments, const Material& material) {
-  constexpr std::string_view reason = "there is no SURFACE to take it from";
+  constexpr std::string_view reason = "without a SURFACE it must be given";
   require_that(arguments.model == "gw_moments", "--model",
                arguments.model + " takes the summits of a surface; give SURFACE (or --recipe)");
   SummitEnsemble ensemble;

@@ -13,7 +13,7 @@
 namespace salebra::cli {
 namespace {
 
-/// y over x of the samples that converged and know both.
+/// The points (x, y) of the converged samples that have both numbers.
 PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::*x,
                     double ForceSample::*y) {
   PlotCurve points{.name = std::move(name), .style = PlotStyle::line_and_points};

@@ -10,11 +10,11 @@
 /// The pictures of contacts and of their force curves.
 namespace salebra::cli {
 
-/// Pressure over mean gap, with the fitted law and its window; what else the curve knows: area,
-/// stiffness. Throws InvalidInput for a curve without a sample that converged.
+/// Pressure over mean gap with the fitted law and the window of the fit. Area and stiffness too, if
+/// the curve has them. Throws InvalidInput for a curve without a converged sample.
 Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit = {});
 
-/// Pressure over indentation of loading and unloading, whose pressures may pull.
+/// Pressure over indentation of loading and unloading; pressures may be tensile.
 Figure cycle_figure(const ForceCurve& loading, const ForceCurve& unloading);
 
 /// Maps of pressure and gap.

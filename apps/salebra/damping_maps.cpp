@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps of `damping`: stresses under an indenter, and W(mu)/W(infinity).
+// Maps of `salebra damping`: stresses under an indenter, and the loss with friction divided by the
+// loss without slip.
 #include "damping_maps.hpp"
 
 #include <salebra/base/error.hpp>
@@ -15,7 +16,7 @@ namespace {
 
 const IndenterLaw& indenter_of(const DampingSolution& answer, const std::string& file) {
   const auto* law = dynamic_cast<const IndenterLaw*>(answer.contact.law.get());
-  require(law != nullptr, "--stress-map", file, "is of an indenter; give --law with a shape");
+  require(law != nullptr, "--stress-map", file, "needs an indenter; give --law with a shape");
   return *law;
 }
 
@@ -57,7 +58,7 @@ void MapOptions::add_to(Command& command) {
   const std::string group = "Maps";
   command
       .add_option("--stress-map", stress_map,
-                  "HDF5 file for stresses under an indenter over r and phase")
+                  "HDF5 file for the stresses under an indenter over r and phase")
       ->file(FileUse::output)
       ->group(group);
   command
@@ -65,14 +66,14 @@ void MapOptions::add_to(Command& command) {
                   "HDF5 file for W(mu)/W(infinity) over M and phase")
       ->file(FileUse::output)
       ->group(group);
-  command.add_option("--map-phases", phases, "of the stress map; default 256")
+  command.add_option("--map-phases", phases, "number of phases in the stress map; default 256")
       ->range(8, 100000)
       ->group(group);
-  command.add_option("--map-radii", radii, "of the stress map; default 400")
+  command.add_option("--map-radii", radii, "number of radii in the stress map; default 400")
       ->range(8, 100000)
       ->group(group);
   add_values(command, "--friction-numbers", friction_numbers, Dimension::dimensionless,
-             "M of the map; default 0.1:100:25")
+             "values of M in the friction map; default 0.1:100:25")
       ->group(group);
 }
 
@@ -81,14 +82,14 @@ void MapOptions::check(const std::vector<Motion>& motions, const Session& sessio
        {std::pair("--stress-map", &stress_map), {"--friction-map", &friction_map}}) {
     if (path->empty()) continue;
     require_output(*path, session.write_options());
-    require(motions.size() == 1, option, *path, "is of one motion");
+    require(motions.size() == 1, option, *path, "needs a single motion");
   }
   if (!given()) return;
   const Motion& motion = motions.front();
   require(stress_map.empty() || !std::holds_alternative<TwoFrequencies>(motion), "--stress-map",
-          stress_map, "is of a single cycle; use --mode equal-frequency or drag");
+          stress_map, "needs a single period; use --mode equal-frequency or drag");
   require(friction_map.empty() || std::holds_alternative<EqualFrequency>(motion), "--friction-map",
-          friction_map, "is over the phase; use --mode equal-frequency");
+          friction_map, "is a map over the phase; use --mode equal-frequency");
 }
 
 void MapOptions::write(const DampingSolution& answer, int steps, Session& session) const {

@@ -15,7 +15,7 @@
 namespace salebra::cli {
 namespace {
 
-/// Rounds to one or two digits: more would claim what an estimate does not know.
+/// A time as text, rounded to one or two digits, since the estimate is not more accurate.
 std::string about(double seconds) {
   if (seconds < 1) return "a second";
   const double unit = std::pow(10, std::floor(std::log10(seconds)) - (seconds < 100 ? 0 : 1));
@@ -45,32 +45,33 @@ std::string describe(const PointCost& point) {
                      point.pressures.back() / point.contact_scale);
 }
 
-/// What the damping constants cost beside the sweep.
+/// Says how many contacts the damping constants need in addition to the sweep of loads.
 std::string describe_intervals(const StudyConfiguration& configuration, const StudyCost& cost) {
   double contacts = 0;
   for (const PointCost& point : cost.points)
     contacts += point.intervals * double(point.surfaces * point.pressures.size());
-  return fmt::format("contacts inside the oscillation, as dear as {:.0f} solves{}", contacts,
+  return fmt::format("contacts inside the oscillation, as expensive as {:.0f} solves{}", contacts,
                      configuration.relative_error > 0
                          ? fmt::format("; for an error of {:.3g} % the cells of some loads are "
-                                       "halved again, four to five times as dear each time",
+                                       "halved again, each time four to five times as expensive",
                                        100 * configuration.relative_error)
                          : "");
 }
 
-/// "64 on 16 machines, in 4 groups".
+/// Formats processes as "64 on 16 machines, in 4 groups".
 std::string describe(const StudyProcesses& processes) {
   return fmt::format("{} on {} machine{}{}", processes.ranks, processes.nodes,
                      processes.nodes > 1 ? "s" : "",
                      processes.groups > 1 ? fmt::format(", in {} groups", processes.groups) : "");
 }
 
-/// How far off the estimate of the time may be, either way.
+/// Factor by which the estimated time may be wrong.
 int uncertainty(const StudyConfiguration& configuration) {
   return configuration.has(ContactModel::gw_interacting) ? 3 : 2;
 }
 
-/// What a job script asks for, with room for what the estimates do not know.
+/// Text with the resources that a job script should request for each shard. The estimates are
+/// increased to allow for their error; factor: that of the time.
 std::string describe_shards(const ShardPlan& plan, int threads, int factor, double wanted) {
   const auto minutes = 5 * static_cast<int>(std::ceil(factor * plan.seconds / 300));
   const double megabytes = 100 * std::ceil(1.25 * plan.memory / 100e6);
@@ -78,8 +79,8 @@ std::string describe_shards(const ShardPlan& plan, int threads, int factor, doub
       "shards    {} of at most {} surfaces, each about {} with {} threads and {}{}\n"
       "Slurm     --array=1-{} --cpus-per-task={} --mem={:.0f}M --time={:02}:{:02}:00\n",
       plan.shards, plan.surfaces, about(plan.seconds), threads, memory_text(plan.memory),
-      plan.seconds > wanted ? "; one surface takes longer than that" : "", plan.shards, threads,
-      megabytes, minutes / 60, minutes % 60);
+      plan.seconds > wanted ? "; a single surface takes longer than requested" : "", plan.shards,
+      threads, megabytes, minutes / 60, minutes % 60);
 }
 
 }  // namespace
@@ -96,19 +97,19 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
   const StudyCost cost = estimate_cost(configuration, processes);
   const bool together = processes.ranks > 1;
   require_that(!together || !shard_seconds, "--shard-seconds",
-               "is for shards of one process each; leave out --ranks");
+               "takes shards of one process each; leave out --ranks");
   const std::string file = session.has_output() ? session.output().string() : "";
-  std::string text = "This would run, and nothing of it has been run:\n";
+  std::string text = "Dry run; nothing has been computed. The command would run:\n";
   for (const PointCost& point : cost.points) {
     if (!configuration.ensemble.empty())
       text += "== " + describe_point(configuration.ensemble, point.configuration) + " ==\n";
     text += describe(point);
     for (const std::string& warning : point.warnings)
-      text += "  mind      " + in_options(warning) + "\n";
+      text += "  warning   " + in_options(warning) + "\n";
   }
   std::string models;
   for (const StudyModel& model : models_of(configuration))
-    models += (models.empty() ? "" : ", ") + std::string(model.title);
+    models += (models.empty() ? "" : "; ") + std::string(model.title);
   text += fmt::format(
       "\ncontacts  {} solves, with K{}\ndamping   {}\nmodels    {}\n{}time      {}about {} with {} "
       "threads {}, give or take a factor of {}\nmemory    about {}{}{}\n",
@@ -133,7 +134,7 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
     answer["shards"] = json_of(plan);
   }
   if (cost.available > 0 && cost.memory_of_node() > cost.available)
-    session.warn(fmt::format("the memory that is free does not suffice; use fewer points or {}",
+    session.warn(fmt::format("the free memory is not enough; use fewer points or {}",
                              together ? "more machines" : "fewer --threads"));
   session.answer(answer, text);
 }
@@ -151,7 +152,7 @@ SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Sess
 void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session& session) {
   const Cost cost = estimate_cost(work);
   const double of_node = cost.memory_of_node(), available = cost.available;
-  std::string text = "This would run, and nothing of it has been run:\n  surface   " +
+  std::string text = "Dry run; nothing has been computed. The command would run:\n  surface   " +
                      in_points(work.grid, origin);
   if (!work.loads.empty())
     text += fmt::format("\n  contacts  {}, up to {:.2g} E*h'{}", work.loads.size(),
@@ -180,15 +181,12 @@ void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session&
   answer.add(json_of(cost));
   const double rows = double(work.grid.nx) * work.groups / work.ranks;
   if (rows < 64)
-    session.warn(
-        fmt::format("{:.0f} rows for each process are few; with fewer than 64 more "
-                    "processes take longer",
-                    rows));
+    session.warn(fmt::format(
+        "each process has only {:.0f} rows; below 64 rows more processes take longer", rows));
   if (available > 0 && of_node > available)
-    session.warn(
-        fmt::format("the memory that is free does not suffice; use {:.0f} machines like this one, "
-                    "or fewer points",
-                    std::ceil(work.nodes * of_node / available)));
+    session.warn(fmt::format(
+        "the free memory is not enough; use {:.0f} machines like this one, or fewer points",
+        std::ceil(work.nodes * of_node / available)));
   session.answer(answer, text);
 }
 

@@ -11,19 +11,20 @@
 
 namespace salebra::cli {
 
-/// Answers what a study would do, what it would cost and where it would write, and does nothing of
-/// it. shard_seconds: proposes shards that take no longer.
+/// Prints the work, the cost and the output files of a study without running it. shard_seconds:
+/// also proposes a number of shards, none of which takes longer.
 void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesses& processes,
                     std::optional<double> shard_seconds, Session& session);
 
-/// The work of the processes that options name, or of those that run. Collective.
+/// The work on one surface, for the number of processes that the options name or, without them, for
+/// the running processes. All processes must call.
 SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Session& session);
 
-/// Answers what one surface would cost, and computes nothing of it. origin: "filtered noise, seed
-/// 3".
+/// Prints the cost of one surface without computing it. origin: how it is made, as in "filtered
+/// noise, seed 3".
 void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session& session);
 
-/// "12 s", "3 min 05 s", "2 h 10 min".
+/// Formats a time as "12 s", "3 min 05 s" or "2 h 10 min".
 std::string format_duration(double seconds);
 
 }  // namespace salebra::cli

@@ -26,8 +26,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-// Where an increasing or decreasing run of the path passes the level, as (x, index); the first
-// after `from`.
+// The first point after sample `from` where the indentation of a path passes `level`, rising or
+// falling. index: the sample after this point; x: displacement there.
 struct Passage {
   std::size_t index = 0;
   double x = nothing;
@@ -47,7 +47,7 @@ Passage passage(const SampledMotion& path, double level, bool rising, std::size_
   return {};
 }
 
-// An axis with a little room beyond the values.
+// An axis whose range is a little larger than that of the values.
 PlotAxis roomy(PlotAxis axis, const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   axis.low = low - 0.05 * (high - low);
@@ -99,7 +99,7 @@ bool spans_decades(const std::vector<double>& values) {
 
 namespace {
 
-/// The springs of the foundation, side by side.
+/// The springs of an axisymmetric foundation, drawn as coils side by side.
 PlotCurve coils_of(const IndenterLaw& law, double indentation) {
   const double edge = law.contact_radius(indentation);
   PlotCurve coils{.name = "springs", .color = 7};
@@ -144,7 +144,7 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
       image.x.push_back(r);
       image.y.push_back(depth);
     }
-    // Between the points of the curve where it may be infinite.
+    // Avoids the edge itself, where the pressure may be infinite.
     if (distance < 1.2 * edge) {
       pressure.x.push_back(r);
       pressure.y.push_back(law.pressure(indentation, distance * (1 - 1e-9)));
@@ -232,8 +232,8 @@ Figure damping_figure(const std::string& quantity, const std::vector<double>& va
 
 namespace {
 
-/// Both singularities would take all the colour: the scale ends where 2 % of the stressed points
-/// are beyond it.
+/// Limit of the colour scale: the magnitude of shear stress that 2 % of the points with stress
+/// exceed. Otherwise the singularities of the stress would use up the scale.
 double colour_limit(const Field& shear) {
   std::vector<double> sizes;
   for (Index i = 0; i < shear.rows(); ++i)
@@ -245,7 +245,7 @@ double colour_limit(const Field& shear) {
              : sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))];
 }
 
-/// The shear stress over the radius at one moment.
+/// The shear stress over the radius at one phase.
 PlotPanel section_of(const OscillatingStress& stress, double angle, double most, double limit,
                      const char* title) {
   const double least = stress.min_contact_radius();
@@ -254,8 +254,8 @@ PlotPanel section_of(const OscillatingStress& stress, double angle, double most,
                   .y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit}};
   PlotCurve curve{.color = 1};
   const double here = stress.contact_radius(angle);
-  // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the
-  // edge.
+  // Points are dense on both sides of the smallest contact radius, where the stress has a
+  // logarithmic singularity, and towards the edge.
   for (const auto& [from, to] : {std::pair{0.0, least}, {least, here}}) {
     for (int i = 0; i <= 300 && to > from; ++i) {
       const double r = from + (to - from) * 0.5 * (1 - std::cos(pi * (0.003 + 0.994 * i / 300)));
@@ -429,7 +429,8 @@ PlotPanel decay_panel(const OscillatorDecay& decay) {
   for (int i = 0; i <= 4000; ++i) {
     const double time = duration * i / 4000;
     path.x.push_back(time);
-    // Released at rest; beyond ζ = 1 by its two exponentials, which do not overflow.
+    // Displacement of an oscillator released at rest. For a damping ratio above 1 it is the sum of
+    // two decaying exponentials, since cosh and sinh would overflow.
     const double fall = ratio * omega, split = omega * std::sqrt(std::abs(1 - ratio * ratio));
     if (split * duration < 1e-6)
       path.y.push_back(std::exp(-fall * time) * (1 + fall * time));
@@ -447,7 +448,7 @@ PlotPanel decay_panel(const OscillatorDecay& decay) {
   return panel;
 }
 
-/// The least amplitude that stabilises, over frequency.
+/// The smallest amplitude that stabilises sliding, over the frequency.
 PlotPanel border_panel(const std::vector<double>& omega, const std::vector<double>& least) {
   PlotCurve border{.x = scaled(omega, 1 / (2 * pi)),
                    .y = least,

@@ -13,24 +13,26 @@ namespace salebra::cli {
 void FrictionOptions::add_to(Command& app) {
   const Heading under(app, "Friction");
   add_quantity(app, "--friction", friction_coefficient, Dimension::dimensionless,
-               "Coulomb's coefficient: steps through the cycle once more, with slip where the "
-               "traction would exceed it; without it nothing slips");
-  app.add_flag("--coupled", coupled,
-               "steps once more with pressures and tractions coupled by Dundurs' beta");
+               "Coulomb coefficient of friction: simulate the cycle once more, with slip; without "
+               "this option nothing slips");
+  app.add_flag(
+      "--coupled", coupled,
+      "simulate the cycle once more with pressures and tractions coupled by Dundurs' beta");
   add_quantity(app, "--dundurs", dundurs, Dimension::dimensionless,
-               "Dundurs' beta, with --coupled; default: that of the material");
-  app.add_option("--max-periods", max_periods,
-                 "periods with friction, at most, until two lose the same; default 6");
+               "Dundurs' beta for --coupled; default: from the material");
+  app.add_option(
+      "--max-periods", max_periods,
+      "maximum number of periods with friction until two in a row lose the same; default 6");
 }
 
 void FrictionOptions::check() const {
   if (friction_coefficient) require_positive(*friction_coefficient, "--friction");
   require(max_periods >= 2, "--max-periods", max_periods,
-          "must be >= 2: a loss is steady where two periods agree");
+          "must be >= 2: the loss is steady when two periods agree");
   require(max_periods == 6 || given(), "--max-periods", max_periods,
-          "is of a cycle with friction; add --friction or --coupled");
+          "applies only to a cycle with friction; add --friction or --coupled");
   if (!dundurs) return;
-  require(coupled, "--dundurs", *dundurs, "means nothing by itself; add --coupled");
+  require(coupled, "--dundurs", *dundurs, "has no effect without --coupled; add it");
   require(std::abs(*dundurs) <= 0.5, "--dundurs", *dundurs, "must be -0.5 ... 0.5");
 }
 
@@ -38,11 +40,10 @@ void FrictionOptions::check(const Oscillation& motion, double indentation) const
   if (!coupled) return;
   const double amplitude =
       std::visit([](const auto& kind) { return kind.normal_amplitude; }, motion);
-  require_that(
-      indentation >= amplitude, "--coupled",
-      fmt::format("given, but the body leaves the surface ({:g} m < amplitude {:g} m); the coupled "
-                  "cycle needs a contact that stays",
-                  indentation, amplitude));
+  require_that(indentation >= amplitude, "--coupled",
+               fmt::format("given, but the body leaves the surface (indentation {:g} m < amplitude "
+                           "{:g} m); a coupled cycle needs permanent contact",
+                           indentation, amplitude));
 }
 
 void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,

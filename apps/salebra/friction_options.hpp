@@ -8,8 +8,8 @@
 
 #include "options.hpp"
 
-/// What `oscillate` adds with --friction and --coupled: the same cycle with Coulomb's law, and with
-/// Dundurs' coupling.
+/// Options --friction and --coupled of `salebra oscillate`, which simulate the same cycle with
+/// Coulomb friction, and also with Dundurs' coupling of pressures and tangential displacements.
 namespace salebra::cli {
 
 struct FrictionOptions {
@@ -19,16 +19,17 @@ struct FrictionOptions {
 
   void add_to(Command& app);
   bool given() const { return friction_coefficient || coupled; }
-  /// The option that was given, for messages.
+  /// The option that was given, for error messages.
   std::string name() const { return friction_coefficient ? "--friction" : "--coupled"; }
-  /// Refuses, before any work, options that do not suit each other.
+  /// Throws InvalidInput before any work for options that contradict each other.
   void check() const;
-  /// Refuses, before the cycles, a coupled contact that opens.
+  /// Throws InvalidInput, before the cycles are simulated, if a coupled contact would open.
   void check(const Oscillation& motion, double indentation) const;
-  /// The options of the cycles: μ, periods and, with --coupled, β/(πE*) by --dundurs or the
-  /// material options.
+  /// Sets the options of the simulated cycles: μ, number of periods and, with --coupled, the
+  /// coupling constant β/(πE*) (β: Dundurs' constant) from --dundurs or the material.
   void apply(CycleOptions& cycle, const MaterialOptions& bodies, const Material& material) const;
-  /// Names of the recorded cycles in the order of their runs, the one without slip first.
+  /// Names of the recorded cycles in the order in which they run; the cycle without slip is the
+  /// first.
   std::vector<std::string> cycles() const;
 };
 

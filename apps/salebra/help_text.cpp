@@ -16,12 +16,11 @@
 namespace salebra::cli {
 namespace {
 
-/// What the help of a command says beyond its one line: what it needs, what it computes, and where
-/// one goes from there.
+/// The text of a command's help: what it computes, what it needs, and which command to use next.
 struct CommandHelp {
   std::string_view name;
-  std::string_view group;  ///< under which the screen of all commands has it; empty: not there
-  std::string_view used;   ///< the options most used, which come first
+  std::string_view group;  ///< heading on the screen of all commands; empty: not listed there
+  std::string_view used;   ///< the most used options, listed first
   std::string_view text;   ///< paragraphs, parted by an empty line
 };
 
@@ -29,136 +28,127 @@ constexpr std::string_view start = "Start", surfaces = "Surface", contact = "Con
                            damping = "Damping";
 
 constexpr std::array descriptions{
-    CommandHelp{
-        "init", start, "--surface",
-        "Writes a study file in which every key is explained: of generated surfaces, or of the "
-        "measured one that --surface names. It runs as it is; edit it to ask your own question.\n\n"
-        "Next: salebra study FILE --dry-run estimates its time and memory, salebra study FILE runs "
-        "it."},
-    CommandHelp{
-        "study", start,
-        "--surface --pressures --hardness --friction-coefficient --excursion --dry-run",
-        "For each surface of a study file, or one measured surface: statistics, contact by "
-        "boundary elements and Greenwood-Williamson, the fit of F ~ exp(-gap/l), and relaxation "
-        "damping. Reports means with 95 % intervals. Surfaces run side by side, one on each "
-        "thread. With --output, --resume continues a run that was stopped. Several processes or "
-        "machines share a study by --shard, and --merge puts the result together.\n\n"
-        "New here? salebra init writes a file to start with, --dry-run estimates time and memory."},
-    CommandHelp{
-        "report", start, "",
-        "Makes one offline HTML page of the results of a study: figures, tables, settings."},
+    CommandHelp{"init", start, "--surface",
+                "Writes a study file in which every key is explained, for generated surfaces or "
+                "for the measured surface that --surface names. It runs as it is; edit it for your "
+                "own problem.\n\nNext: salebra study FILE --dry-run estimates its time and memory, "
+                "salebra study FILE runs it."},
+    CommandHelp{"study", start,
+                "--surface --pressures --hardness --friction-coefficient --excursion --dry-run",
+                "Computes for each surface of a study file, or for one measured surface: "
+                "statistics, contact by boundary elements and Greenwood-Williamson, the fit of F ~ "
+                "exp(-gap/l), and the damping constant. Reports means with 95 % intervals. "
+                "Surfaces run in parallel, one on each thread. If --output was given, --resume "
+                "continues a run that was stopped. With --shard several processes or machines "
+                "share a study, and --merge puts the result together.\n\nNew here? salebra init "
+                "writes a file to start with, --dry-run estimates time and memory."},
+    CommandHelp{"report", start, "",
+                "Makes one HTML page from the results of a study, with figures, tables and "
+                "settings. The page needs no network."},
     CommandHelp{"verify", start, "",
-                "Solves problems whose solutions are known and compares: a few seconds after an "
-                "installation or an update. Exit status 1 where one is off."},
-    CommandHelp{
-        "generate", surfaces, "--points --size-x --hurst --rolloff --short-cutoff --rms-height",
-        "Makes a rough surface with a given power spectrum, a profile, or an analytic shape. One "
-        "seed gives one surface on any grid and any number of threads. Reports what was requested, "
-        "what the grid holds in the mean, and what came out. Warns where a grid cannot carry the "
-        "spectrum.\n\n"
-        "Next: salebra statistics measures it, salebra contact presses it."},
+                "Solves problems whose solutions are known and compares. Takes a few seconds; run "
+                "it after an installation or an update. The exit status is 1 if a check fails."},
+    CommandHelp{"generate", surfaces,
+                "--points --size-x --hurst --rolloff --short-cutoff --rms-height",
+                "Makes a rough surface with a given power spectrum, a profile, or an analytic "
+                "shape. A seed gives the same surface on any grid and with any number of threads. "
+                "Reports the moments that were requested, their mean on this grid, and those of "
+                "the surface. Warns if the grid cannot carry the spectrum.\n\nNext: salebra "
+                "statistics measures the surface, salebra contact presses it."},
     CommandHelp{
         "statistics", surfaces, "--all --fill --plot --size-x --size-y --detrend",
-        "Size, roughness, moments, summits and self-affine law of a surface, and the shortest "
-        "wavelength that the instrument leaves reliable. With --all, or into a file, also ISO "
-        "25178-2 parameters, power spectra, correlation, structure function, slope and curvature "
-        "by scale, bearing curve and distribution of heights. Nothing but the trend (--detrend) "
-        "is removed, and holes are filled on request only (--fill).\n\n"
-        "Next: salebra contact presses the surface, salebra study computes its damping."},
-    CommandHelp{
-        "twin", surfaces, "--files --form",
-        "Finds the one self-affine surface that several scans are pieces of: optical maps, stylus "
-        "and AFM scans of any size. Blur, tip, noise, calibration, drift and levelling of each "
-        "instrument are part of the fit. Reports Hurst exponent, roll-off, cut-off, rms height and "
-        "slope with joint 95 % limits, says what no scan sees, and what changes without each "
-        "instrument.\n\n"
-        "FILE has a table for each scan:\n"
-        "  [[measurement]]\n"
-        "  file = \"wli.sur\"\n"
-        "  instrument = \"optical\"    # or stylus, afm, ideal\n"
-        "  resolution = \"1.5um\"      # of stylus and afm: tip_radius\n\n"
-        "salebra twin init LIST --files SCAN … writes it with every key explained.\n\n"
-        "Next: salebra study STUDY --twin OUT draws surfaces of the part."},
+        "Reports size, roughness, moments, summits and self-affine law of a surface, and the "
+        "shortest wavelength that the instrument resolves reliably. With --all, or in an output "
+        "file, also ISO 25178-2 parameters, power spectra, correlation, structure function, slope "
+        "and curvature by scale, bearing curve and distribution of heights. Only the trend "
+        "(--detrend) is removed, and holes are filled only on request (--fill).\n\nNext: salebra "
+        "contact presses the surface, salebra study computes its damping."},
+    CommandHelp{"twin", surfaces, "--files --form",
+                "Finds the self-affine spectrum of the surface from which several scans were "
+                "taken: optical maps, stylus and AFM scans of any size. The fit includes blur, "
+                "tip, noise, calibration, drift and levelling of each instrument. Reports Hurst "
+                "exponent, roll-off, cut-off, rms height and slope with joint 95 % limits, what no "
+                "scan resolves, and what changes without each instrument.\n\nFILE has a table for "
+                "each scan:\n  [[measurement]]\n  file = \"wli.sur\"\n  instrument = \"optical\"   "
+                " # or stylus, afm, ideal\n  resolution = \"1.5um\"      # of stylus and afm: "
+                "tip_radius\n\nsalebra twin init LIST --files SCAN … writes it with every key "
+                "explained.\n\nNext: salebra study STUDY --twin OUT draws surfaces of the part."},
     CommandHelp{"convert", surfaces, "--fill",
-                "Reads a surface and writes it in the format that the extension of OUT names. "
+                "Reads a surface and writes it in the format given by the extension of OUT. "
                 "docs/formats.md lists what each format keeps."},
-    CommandHelp{
-        "contact", contact, "--pressure --contact-modulus --young --poisson --stiffness --model",
-        "Presses a surface by boundary elements. One operating point gives area, gap, pressure, "
-        "energy, "
-        "and the stiffness on request; several pressures give a force-gap curve, with K and K_t, "
-        "which damping needs, on request. Periodic surfaces fill the plane; --boundary free takes "
-        "a surface by itself. --model gw_moments and gw_deterministic are the fast theory of "
-        "Greenwood and Williamson, good at light loads only: salebra compare shows how good on "
-        "your surface.\n\n"
-        "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
-    CommandHelp{
-        "fit", contact, "--pressure-window --plot",
-        "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and "
-        "whether the law holds at all."},
-    CommandHelp{
-        "compare", contact, "--surface --pressures --models --dry-run",
-        "Boundary elements, four kinds of Greenwood-Williamson and Persson's theory on the same "
-        "surfaces, from the force-gap curve to the damping constant, with intervals. Takes what "
-        "study takes, and about twice its time, which --dry-run estimates."},
-    CommandHelp{
-        "damping", damping,
-        "--law --curve --surface --normal-amplitude --drag-velocity --frequency "
-        "--friction-coefficient",
-        "What a contact loses in a cycle, by any law, curve or surface: without slip by the "
-        "theorem "
-        "for any amplitude, beside the small-amplitude Eqs (12), (15) and (16); with a coefficient "
-        "of friction also with slip. One quantity may be a range, and is then drawn by --plot. Of "
-        "slow tangential motions it is a damper that one tunes by its amplitude: a map over "
-        "amplitudes and frequencies, the decay of an oscillator, the amplitude that keeps a slider "
-        "from stick-slip. An indenter without a motion is at rest: force, contact radius, "
-        "stiffness."},
-    CommandHelp{
-        "sliding", damping, "--law --curve --surface --friction-coefficient --velocities --mass",
-        "A contact that slides while it oscillates in the normal direction. Reports mean friction "
-        "over velocity, the velocity from which nothing sticks, and two damping constants: of slow "
-        "sliding, and of relaxation without slip. With --mass and --spring-stiffness a spring "
-        "drags "
-        "a mass over the contact: stick-slip or steady sliding, by the full equation of motion and "
-        "by its average over a normal oscillation, and the amplitude and frequency from which the "
-        "oscillation keeps sliding stable."},
+    CommandHelp{"contact", contact,
+                "--pressure --contact-modulus --young --poisson --stiffness --model",
+                "Presses a surface by boundary elements. One load gives area, gap, pressure and "
+                "energy; several loads give a force-gap curve. --stiffness adds the stiffnesses K "
+                "and K_t, which the damping needs. Periodic surfaces repeat without end; "
+                "--boundary free takes a surface alone. --model gw_moments and gw_deterministic "
+                "are the fast theory of Greenwood and Williamson, accurate only at light loads; "
+                "salebra compare shows how accurate on your surface.\n\nNext: salebra fit for the "
+                "decay length, salebra damping --curve for the damping."},
+    CommandHelp{"fit", contact, "--pressure-window --plot",
+                "Fits the decay length l of p = p0 exp(-gap/l) to a curve in a file, with its "
+                "interval, and tests whether the law holds at all."},
+    CommandHelp{"compare", contact, "--surface --pressures --models --dry-run",
+                "Compares boundary elements, four kinds of Greenwood-Williamson and Persson's "
+                "theory on the same surfaces, from the force-gap curve to the damping constant, "
+                "with intervals. Takes the same study file and options as study, and about twice "
+                "its time; --dry-run estimates it."},
+    CommandHelp{"damping", damping,
+                "--law --curve --surface --normal-amplitude --drag-velocity --frequency "
+                "--friction-coefficient",
+                "Computes the energy that a contact loses in a cycle, and its damping constant, "
+                "from a law, a curve or a surface. Without slip the loss follows from the theorem "
+                "for any amplitude and is compared with the small-amplitude Eqs (12), (15) and "
+                "(16); with a coefficient of friction it includes slip. One quantity may be a "
+                "range, which --plot draws. Under slow shear the contact is a damper, tuned by the "
+                "vibration amplitude: the command gives a map over amplitudes and frequencies, the "
+                "decay of an oscillator, and the amplitude that keeps a slider from stick-slip. "
+                "For an indenter without a motion it gives force, contact radius and stiffness."},
+    CommandHelp{"sliding", damping,
+                "--law --curve --surface --friction-coefficient --velocities --mass",
+                "Computes the friction of a contact that slides while it oscillates in the normal "
+                "direction. Reports the mean friction over the velocity, the velocity from which "
+                "nothing sticks, and two damping constants: that of slow sliding, and that of "
+                "relaxation without slip. With --mass and --spring-stiffness a spring drags a mass "
+                "over the contact. Then the command reports stick-slip or steady sliding, from the "
+                "full equation of motion and from its average over a normal oscillation, and the "
+                "amplitude and frequency from which the oscillation keeps sliding stable."},
     CommandHelp{
         "joint", damping,
         "--curve --surface --tangential-forces --tangential-amplitudes --friction-coefficient",
-        "A contact under a tangential force or displacement that oscillates: what partial slip "
-        "loses, secant, storage and loss stiffness, with a constant or an oscillating normal "
-        "force."},
+        "Computes partial slip of a contact under an oscillating tangential force or displacement: "
+        "energy loss and secant, storage and loss stiffness, with a constant or an oscillating "
+        "normal force."},
     CommandHelp{
         "viscoelastic", damping,
         "--law --radius --indentation --prony --normal-amplitude --frequency",
-        "An axisymmetric indenter that oscillates on a viscoelastic body without slip. Reports "
-        "what "
-        "the material loses by the normal and by the tangential motion, and what relaxation "
-        "damping loses, over frequency or another quantity."},
-    CommandHelp{
-        "oscillate", damping, "--shape --surface --pressure --normal-amplitude --phase --friction",
-        "The direct experiment in three dimensions: a contact is moved through its cycle and the "
-        "work is counted, by time steps or by contact levels. Friction may be finite, and normal "
-        "and tangential directions coupled. Several shapes stand side by side, as in the paper's "
-        "Fig. 3. Minutes, not seconds."},
+        "Computes the losses of an axisymmetric indenter that oscillates on a viscoelastic body "
+        "without slip: those of the material under the normal and under the tangential motion, and "
+        "that of relaxation damping, over the frequency or another quantity."},
+    CommandHelp{"oscillate", damping,
+                "--shape --surface --pressure --normal-amplitude --phase --friction",
+                "Simulates an oscillating contact in three dimensions: moves it through its cycle "
+                "and sums the work, by time steps or by intervals of the indentation. Friction may "
+                "be finite, "
+                "and normal and tangential directions may be coupled. Several shapes can be "
+                "compared, as in the paper's Fig. 3. Takes minutes, not seconds."},
     CommandHelp{
         "export", damping,
         "--to --units --friction-coefficient --pressure --nominal-area --sliders --law",
-        "Writes pressure over clearance, with friction where its coefficient is given, as input of "
-        "finite-element programs, or a joint as sliders in parallel. Of a study of several "
-        "surfaces the mean and two whole surfaces, low and high. The header of each deck has "
-        "units, assumptions, range and what the clearance is counted from. Decks may be used in any "
-        "program (MIT-0); docs/howto/decks.md says what each format is."},
+        "Writes pressure over clearance, with friction if its coefficient is given, as input for "
+        "finite-element programs, or a joint as sliders in parallel. From a study of several "
+        "surfaces it takes the mean and two whole surfaces, low and high. The header of each deck "
+        "states units, assumptions, range and the zero of the clearance. Decks may be used in any "
+        "program (MIT-0); docs/howto/decks.md describes each format."},
     CommandHelp{
         "completion", "", "",
-        "Prints the script that lets a shell complete commands, options, and their choices with "
-        "the Tab key. An installed package has it in place; for a build of your own:\n"
-        "  bash: source <(salebra completion bash)\n"
-        "  zsh:  salebra completion zsh > \"${fpath[1]}/_salebra\""},
+        "Prints the script with which a shell completes commands, options and their choices on the "
+        "Tab key. Installed packages contain it; for a build of your own:\n  bash: source "
+        "<(salebra completion bash)\n  zsh:  salebra completion zsh > \"${fpath[1]}/_salebra\""},
 };
 
 constexpr std::string_view chart =
-    // At 80 columns a longer line would be wrapped, and lose its place in the chart.
+    // Lines must fit into 80 columns: a wrapped line would break the table.
     "Which command?\n"
     "  you have                 you want                         command\n"
     "  a measured surface       roughness and spectrum           statistics\n"
@@ -187,7 +177,8 @@ std::string title(std::string_view text) {
   return emphasised(text, Emphasis::heading, STDOUT_FILENO);
 }
 
-/// "  --option TYPE   what it is", the help below where the left half is too long.
+/// A line "  --option TYPE   help text". The help text begins a new line if the left part is too
+/// long.
 std::string line_of(const Option& option) {
   constexpr std::size_t column = 34;
   std::string line = fmt::format("  {}", fmt::join(option.names(), ", "));
@@ -200,7 +191,7 @@ std::string line_of(const Option& option) {
   return line + (option.required() && !option.positional() ? " (required)\n" : "\n");
 }
 
-/// The options under a heading, but those that were shown before.
+/// The options under a heading that were not shown before.
 std::string section(const Command& command, const std::string& heading,
                     const std::vector<std::string>& shown) {
   std::string text;

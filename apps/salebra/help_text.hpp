@@ -6,16 +6,18 @@
 
 #include "command.hpp"
 
-/// What `salebra help` prints, before it is wrapped.
+/// Texts that `salebra help` prints, before wrapping.
 namespace salebra::cli {
 
-/// One screen: the commands under what they are for, which one to take, and the first steps.
+/// Help of the program on one screen: the commands by purpose, which one to choose, and first
+/// steps.
 std::string program_help(const std::deque<Command>& commands);
 
-/// What a command does, two examples, the options most used, and the others under their headings.
+/// Help of a command: description, two examples, the most used options, and the other options under
+/// their headings.
 std::string command_help(const Command& command);
 
-/// The options that every command has, of any of them.
+/// Help of the options that every command has, taken from any of the commands.
 std::string options_help(const Command& command);
 
 }  // namespace salebra::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of instruments by salebra-import, of import_helper.hpp.
+// Reads files of instruments through the program salebra-import (import_helper.hpp).
 #include "import_helper.hpp"
 
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* helper = "salebra-import";
 
-/// The lines of a kind, "salebra-import: note: FILE: …", without what precedes the text.
+/// The texts of all lines "salebra-import: KIND: FILE: TEXT" of one kind, such as "note".
 std::vector<std::string> lines_of(const std::string& kind, const std::string& text,
                                   const std::string& file) {
   std::vector<std::string> found;
@@ -30,12 +30,13 @@ std::vector<std::string> import_surface(const std::filesystem::path& from,
                                         const std::filesystem::path& to, const std::string& channel,
                                         const UnknownFormat& refusal) {
   if (detail::found_on_path(helper).empty())
-    throw InvalidInput(
-        from.string(),
-        refusal.statement() + "; pip install 'salebra[formats]' adds the formats of instruments");
-  // No name of a file may be taken for an option.
+    throw InvalidInput(from.string(),
+                       refusal.statement() +
+                           "; pip install 'salebra[formats]' adds the file formats of instruments");
+  // An absolute path cannot be read as an option.
   const std::string file = std::filesystem::absolute(from).string();
-  // A reader of a minute and some memory; libraries take a part of it before they read.
+  // Limits of the child process: a minute and more for large files, and memory, part of which its
+  // libraries use before they read anything.
   const detail::ChildLimits limits{
       .time = std::chrono::seconds(60 + std::filesystem::file_size(from) / 1'000'000),
       .memory = (std::uint64_t{1} << 30) + 64 * std::uint64_t(std::filesystem::file_size(from)),
@@ -48,11 +49,12 @@ std::vector<std::string> import_surface(const std::filesystem::path& from,
                   ")");
   if (run.signal == 0 && run.status == 0) return lines_of("note", run.errors, file);
   const std::vector<std::string> errors = lines_of("error", run.errors, file);
-  const std::string reason = run.late          ? "took too long and was ended"
+  const std::string reason = run.late          ? "took too long and was stopped"
                              : !errors.empty() ? errors.front()
-                             : run.signal != 0 ? "was ended by signal " + std::to_string(run.signal)
-                                               : "failed with status " + std::to_string(run.status);
-  // What both say of a file is worth more than either.
+                             : run.signal != 0
+                                 ? "was stopped by signal " + std::to_string(run.signal)
+                                 : "failed with status " + std::to_string(run.status);
+  // The message contains the errors of the library and of salebra-import.
   throw InvalidInput(from.string(),
                      refusal.statement() + "; " + std::string(helper) + ": " + reason);
 }

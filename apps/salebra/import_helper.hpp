@@ -3,9 +3,8 @@
 
 namespace salebra::cli {
 
-/// From now on, surfaces of formats that the library does not know are read through salebra-import,
-/// a program of the Python package, where it is on the PATH. Where it is not, the refusal says how to
-/// get it.
+/// Makes the library read surfaces of unknown formats through salebra-import, a program of the
+/// Python package, if it is on the PATH. If not, the error says how to install it.
 void install_import_helper();
 
 }  // namespace salebra::cli

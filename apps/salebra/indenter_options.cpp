@@ -19,22 +19,26 @@ void IndenterOptions::add_to(Command& app, const std::vector<std::string>& other
   words.emplace_back("table");
   const std::string group = "Law";
   add_choice(app, "--law", law, words,
-             others.empty() ? "shape of the indenter"
-                            : "F(indentation): by a formula, or of an indenter of this shape")
+             others.empty()
+                 ? "shape of the indenter"
+                 : "force law F(indentation): a formula, or the law of an indenter of this shape")
       ->required(others.empty())
       ->group(group);
-  add_quantity(app, "--angle", angle, Dimension::angle, "cone: of its flank to the plane")
+  add_quantity(app, "--angle", angle, Dimension::angle,
+               "cone: angle between its flank and the plane")
       ->group(group);
   add_quantity(app, "--radius", radius, Dimension::length,
-               "paraboloid, sphere; cylinder, rounded-cylinder: of the flat face")
+               "paraboloid, sphere: radius of curvature; cylinder, rounded-cylinder: radius of the "
+               "flat face")
       ->group(group);
-  add_quantity(app, "--exponent", exponent, Dimension::dimensionless, "power: N of f = B r^N")
+  add_quantity(app, "--exponent", exponent, Dimension::dimensionless,
+               "power: exponent N of f = B r^N")
       ->group(group);
   add_quantity(app, "--coefficient", coefficient, Dimension::dimensionless,
-               "power: B of f = B r^N, m^(1-N)")
+               "power: coefficient B of f = B r^N, m^(1-N)")
       ->group(group);
   add_quantity(app, "--edge-radius", edge_radius, Dimension::length,
-               "rounded-cylinder: of curvature outside the flat face")
+               "rounded-cylinder: radius of curvature outside the flat face")
       ->group(group);
   app.add_option("--table", table,
                  "table: file with two columns in m, radius and height, from the axis outwards")

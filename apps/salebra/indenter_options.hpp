@@ -11,17 +11,17 @@
 
 namespace salebra::cli {
 
-/// The shape of an axisymmetric indenter, which is a law.
+/// Options for the shape of an axisymmetric indenter, from which its contact law follows.
 struct IndenterOptions {
   std::string law, table;
   std::optional<double> angle, radius, exponent, coefficient, edge_radius;
 
-  /// others: words of --law beside the shapes.
+  /// others: further allowed values of --law that are no shapes.
   void add_to(Command& app, const std::vector<std::string>& others = {});
-  /// Throws InvalidInput naming the option that is missing, and those that the shape does not have.
+  /// Throws InvalidInput for a missing option and for options that the shape does not have.
   std::shared_ptr<const IndenterProfile> indenter() const;
-  /// Throws InvalidInput for an option of a shape that is not among the wanted; chosen: what was
-  /// chosen, "--law cone".
+  /// Throws InvalidInput if an option of an indenter was given that is not among `wanted`. chosen:
+  /// the choice that the error message names, such as "--law cone".
   void require_only(const std::vector<std::string>& wanted, const std::string& chosen) const;
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What precedes everything else in main(): standard streams, and the wait policy of OpenMP's
-// threads.
+// First steps of main(): standard streams, and the wait policy of OpenMP's threads.
 #include "launch.hpp"
 
 #include <fcntl.h>
@@ -17,7 +16,8 @@
 namespace salebra::cli {
 namespace {
 
-// Not for commands of few numbers, nor for help, nor where there is one thread.
+// Returns whether the command line may lead to work on several threads: false for commands with
+// little work, for help, and with one thread.
 bool threads_may_run(char** argv) {
   using namespace std::string_view_literals;
   if (parallel::threads() == 1 || !argv[0] || !argv[1]) return false;
@@ -32,11 +32,12 @@ bool threads_may_run(char** argv) {
   return true;
 }
 
-// By default OpenMP's threads spin while they wait for each other, which makes a run on a shared
-// machine many times slower and gains nothing on a quiet one. Asleep at once they are some 5 %
-// slower than after a thousand looks, which GNU's OpenMP can be told. The choice is read from the
-// environment when the OpenMP library is loaded, before main, so the program starts itself once
-// more with it, which takes 11 ms. Where that fails it continues, more slowly.
+// Makes waiting OpenMP threads sleep. By default they spin while they wait for each other, which
+// makes a run on a shared machine many times slower and gains nothing on a quiet one. Threads that
+// sleep at once are about 5 % slower than threads that first spin a thousand times, which GNU's
+// OpenMP can do. The OpenMP library reads these settings from the environment when it is loaded,
+// before main(). Therefore the program sets them and restarts itself, which takes 11 ms. If the
+// restart fails the program continues, more slowly.
 void wait_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT") || !threads_may_run(argv))
     return;
@@ -45,9 +46,9 @@ void wait_without_spinning(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
-// The first file that is opened takes the number of a standard stream that is closed, and what is
-// printed would go there. Opened the wrong way round, so that reading and printing fail as on the
-// closed descriptor.
+// If a standard stream is closed, the first file that is opened gets its number, and output would
+// go to that file. Each closed stream is opened for the opposite direction, so that reading and
+// printing fail as on the closed descriptor.
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0)
@@ -58,15 +59,16 @@ void open_standard_streams() {
 
 void require_one_process(const Launch& launch, std::string_view what) {
   if (launch.communicator.alone()) return;
-  throw InvalidInput(what, fmt::format("is computed by one process alone, and these are {}; use "
-                                       "salebra, or one process",
-                                       launch.communicator.size()));
+  throw InvalidInput(
+      what, fmt::format(
+                "is computed by one process only, but {} are running; use salebra, or one process",
+                launch.communicator.size()));
 }
 
 void prepare_process(char** argv) {
   open_standard_streams();
   wait_without_spinning(argv);
-  // A process that has started itself once more is called "exe", after /proc/self/exe.
+  // After the restart the system would show the process as "exe", so its name is set again.
   prctl(PR_SET_NAME, program_invocation_short_name);
 }
 

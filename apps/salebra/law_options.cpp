@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that give a contact law, or a force curve file, and the operating point on it.
+// Options for a contact law or a force curve file, and for the operating point on it.
 #include "law_options.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,8 @@ namespace {
 
 std::string option_named(ControlQuantity control) { return "--" + option_word(control); }
 
-/// The one operating point that was given, and its values.
+/// The control quantity that the options give, with its values. allowed: control quantities that
+/// suit the law.
 OperatingPoints operating_point_of(const LawOptions& arguments,
                                    const std::vector<ControlQuantity>& allowed) {
   const std::vector<OperatingPoints> given = arguments.at.given();
@@ -26,11 +27,11 @@ OperatingPoints operating_point_of(const LawOptions& arguments,
   const OperatingPoints& found = given.front();
   if (given.size() > 1)
     throw InvalidInput(
-        option_named(given[1].quantity),
+        option_named(given[1].control),
         fmt::format("given together with {}; give one of them", option_named(found.control)));
   require_that(std::ranges::find(allowed, found.control) != allowed.end(),
                option_named(found.control),
-               fmt::format("given, but this contact stands at {}", fmt::join(options, " or ")));
+               fmt::format("given, but this contact takes {}", fmt::join(options, " or ")));
   return found;
 }
 
@@ -49,10 +50,12 @@ void LawOptions::add_to(Command& command) {
   const std::string group = "Law";
   indenter.add_to(command, {"exponential"});
   add_quantity(command, "--decay-length", decay_length, Dimension::length,
-               "exponential: l of F ~ exp(indentation/l)")
+               "exponential: decay length l of F ~ exp(indentation/l)")
       ->group(group);
   command
-      .add_option("--curve", curve, "file of contact or a study of one surface, instead of --law")
+      .add_option("--curve", curve,
+                  "force curve instead of --law: result of contact or of a study of one surface, "
+                  "or a text table")
       ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
@@ -108,7 +111,8 @@ ContactSolution LawOptions::contact(const MaterialOptions& material, Session& se
 
 ContactProblem LawOptions::problem_of_law(const MaterialOptions& material) const {
   require(!surface.given(), "--surface", surface.file,
-          "has no law for a path of indentations; press it and give its --curve");
+          "has no law for a measured path of indentations; compute its force curve and give it as "
+          "--curve");
   return read(material, false);
 }
 

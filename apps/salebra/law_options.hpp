@@ -12,23 +12,24 @@
 
 namespace salebra::cli {
 
-/// A force law, a curve from a file, or a surface, and where the contact stands on it.
+/// Options for a contact law, a force curve from a file or a surface, and for the operating point.
 struct LawOptions {
-  IndenterOptions indenter;  ///< --law, exponential beside the shapes
+  IndenterOptions indenter;  ///< --law: exponential or the shape of an indenter
   std::string curve;
   SurfaceOptions surface;
   OperatingPointsOptions at;
   std::optional<double> decay_length;
 
   void add_to(Command& command);
-  /// Throws InvalidInput naming the option that is missing or one too many. A surface is read.
+  /// The contact that the options describe, with its operating points. Throws InvalidInput if an
+  /// option is missing or does not fit the others. Reads the file of a surface.
   ContactProblem problem(const MaterialOptions& material, Session& session,
                          const std::optional<double>& hardness) const;
-  /// The answer, whose doubts are told.
+  /// Solves problem() and prints the warnings of the solution.
   ContactSolution contact(const MaterialOptions& material, Session& session,
                           const std::optional<double>& hardness, double normal_amplitude) const;
-  /// Without operating points, for a motion that brings its own indentations. The exponential law's
-  /// --normal-force is F at indentation 0.
+  /// The contact without operating points, for a motion that has its own indentations.
+  /// --normal-force of the exponential law is then the force at indentation 0.
   ContactProblem problem_of_law(const MaterialOptions& material) const;
   bool of_indenter() const {
     return !indenter.law.empty() && indenter.law != "exponential" && curve.empty() &&
@@ -36,9 +37,10 @@ struct LawOptions {
   }
 
  private:
-  /// Throws InvalidInput for a parameter of another law than the one that was chosen.
+  /// Throws InvalidInput for a parameter that the chosen law does not have.
   void require_own_parameters() const;
-  /// The problem; without operating points, where they are not needed, of what was given as one.
+  /// The contact that the options describe, with its operating points or (points false) without
+  /// them.
   ContactProblem read(const MaterialOptions& material, bool points) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files that a command reads and writes, of named_files.hpp.
+// The files that a command reads and writes (named_files.hpp).
 #include "named_files.hpp"
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 namespace salebra::cli {
 namespace {
 
-// The folder without its links, and the name in it. A link that is the name itself is not followed:
-// a writer replaces the link.
+// Path of a file: its folder with all links resolved, and its name. If the name itself is a link it
+// is not resolved, because a writer would replace the link and not the file behind it.
 std::filesystem::path place_of(const std::filesystem::path& file) {
   std::error_code error;
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -34,7 +34,7 @@ void NamedFiles::add(Named named) {
       continue;
     const auto& [field, too] = named.written ? std::pair(named, other) : std::pair(other, named);
     throw InvalidInput(field.option, field.file.string(),
-                       fmt::format("is the {} too; name another file", too.option));
+                       fmt::format("is also the file of {}; name another file", too.option));
   }
   named_.push_back(std::move(named));
 }
@@ -53,7 +53,7 @@ void NamedFiles::opens(const std::filesystem::path& file) const {
     if (named.written && named.option != "--checkpoint" && named.option != "--fields" &&
         same_file(named.file, file))
       throw InvalidInput(named.option, named.file.string(),
-                         "is read by this command too; name another file");
+                         "is also read by this command; name another file");
 }
 
 }  // namespace salebra::cli

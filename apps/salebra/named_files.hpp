@@ -8,19 +8,20 @@
 
 namespace salebra::cli {
 
-/// The files that one run of a command reads and writes. Compared are the files, not their names:
-/// "a.h5", "./a.h5" and a link to it are one.
+/// The files that one run of a command reads and writes. It compares files, not names: "a.h5",
+/// "./a.h5" and a link to it are the same file.
 class NamedFiles {
  public:
-  /// option: names the file in messages. Throws InvalidInput where the file is written too.
+  /// Adds a file to read. option: how messages name it. Throws InvalidInput if the file is also
+  /// written.
   void reads(std::string_view option, const std::filesystem::path& file);
-  /// Throws InvalidInput where the file is read or written under another option, `partner`
-  /// excepted.
+  /// Adds a file to write. Throws InvalidInput if the file is also read or written under another
+  /// option, except under the option `partner`.
   void writes(std::string_view option, const std::filesystem::path& file,
               std::string_view partner = "");
-  /// A file that is opened for reading, whoever named it: an option, or a file that an option names.
-  /// Throws InvalidInput where it is written too. Checkpoints and the fields of a cycle are excepted,
-  /// which their command reads itself to go on.
+  /// Checks a file that is opened for reading, whether an option names it or a file that an option
+  /// names. Throws InvalidInput if it is also written. Checkpoints and fields of a cycle are
+  /// exceptions: their command reads them to continue.
   void opens(const std::filesystem::path& file) const;
 
  private:
@@ -34,7 +35,7 @@ class NamedFiles {
   std::vector<Named> named_;
 };
 
-/// Whether both names are of one file, also where it is not there yet.
+/// Whether two names, which need not exist yet, mean the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace salebra::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arguments that messages of the library name, as options of the command that runs.
+// Translates arguments in messages of the library to options of the running command.
 #include "option_words.hpp"
 
 #include <algorithm>
@@ -13,11 +13,15 @@ std::set<std::string>& options() {
   return names;
 }
 
-/// "--size-x" of "size_x"; empty if the command has no such option.
+/// The option of the running command for an argument of the library: "--size-x" for "size_x",
+/// "--tangential-forces" for "tangential_force", "--normal-force" for "force". Empty if the command
+/// has no such option.
 std::string option_of(std::string_view argument) {
   std::string option = "--" + std::string(argument);
   std::ranges::replace(option, '_', '-');
-  return options().contains(option) ? option : "";
+  for (const std::string& name : {option, option + "s", "--normal" + option.substr(1)})
+    if (options().contains(name)) return name;
+  return "";
 }
 
 }  // namespace

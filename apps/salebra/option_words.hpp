@@ -9,14 +9,15 @@
 
 namespace salebra::cli {
 
-/// The command whose options the next two speak of.
+/// Sets the command whose options in_options() and with_option() use.
 void name_options(const Command& command);
 
-/// A message of the library as this program says it: `size_x` becomes --size-x, if the command has
-/// that option.
+/// Returns a message of the library with names of arguments replaced by options: `size_x` becomes
+/// --size-x if the command has that option.
 std::string in_options(std::string_view message);
 
-/// Does so with a refusal, whose field is the option that has its name.
+/// The message of an error of the library, beginning with the option for the argument that was
+/// refused.
 std::string with_option(const InvalidInput& refusal);
 
 }  // namespace salebra::cli

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/half_space/coupling.hpp>  // the bodies are known to options alone
+#include <salebra/contact/half_space/coupling.hpp>  // coupling_constant(bodies)
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
@@ -82,20 +82,22 @@ void require_options(const std::vector<std::string>& missing, const std::string&
 void MaterialOptions::add_to(Command& app) {
   const Heading under(app, "Material");
   add_values(app, "--young", young, Dimension::pressure,
-             "Young's modulus E1[,E2]; one: the other side is rigid");
+             "Young's modulus E1[,E2]; with one value the other body is rigid");
   add_values(app, "--poisson", poisson, Dimension::dimensionless, "Poisson's ratio NU1[,NU2]");
   add_quantity(app, "--contact-modulus", contact_modulus, Dimension::pressure,
-               "E*, instead of --young");
+               "contact modulus E*, instead of --young");
   add_quantity(app, "--tangential-modulus", tangential_modulus, Dimension::pressure,
-               "G*, with --contact-modulus");
+               "tangential modulus G*, with --contact-modulus");
 }
 
 void add_conduction(Command& app, Conduction& bodies) {
   const Heading under(app, "Conductance");
   add_values(app, "--conductivity", bodies.conductivity, Dimension::thermal_conductivity,
-             "thermal, K1[,K2], one for both bodies: also thermal_conductance per nominal area");
+             "thermal conductivity K1[,K2], one value for both bodies: adds thermal_conductance "
+             "per nominal area");
   add_values(app, "--resistivity", bodies.resistivity, Dimension::resistivity,
-             "electrical, R1[,R2], one for both: also electrical_conductance per nominal area");
+             "electrical resistivity R1[,R2], one value for both bodies: adds "
+             "electrical_conductance per nominal area");
 }
 
 std::vector<std::string> MaterialOptions::missing(bool tangential) const {
@@ -110,10 +112,10 @@ std::vector<std::string> MaterialOptions::missing(bool tangential) const {
 
 namespace {
 
-/// Throws InvalidInput where --poisson has more values than there are elastic bodies.
+/// Throws InvalidInput if --poisson has more values than there are elastic bodies (`bodies`).
 void require_bodies(const std::vector<double>& poisson, std::size_t bodies) {
   require(poisson.size() <= bodies, "--poisson", fmt::format("{}", fmt::join(poisson, ",")),
-          fmt::format("has {} values for {} elastic {}: a comma separates two bodies; write a "
+          fmt::format("has {} values for {} elastic {}. A comma separates two bodies; write a "
                       "decimal point, as in 0.3",
                       poisson.size(), bodies, bodies == 1 ? "body" : "bodies"));
 }
@@ -124,11 +126,11 @@ Material MaterialOptions::material() const {
   if (!young.empty()) {
     require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
             "cannot be combined with --contact-modulus or --tangential-modulus; give one kind");
-    require(young.size() <= 2, "--young", young.size(), "values are too many; give E1 or E1,E2");
+    require(young.size() <= 2, "--young", young.size(), "values given; it takes E1 or E1,E2");
     require_options(missing(false), "--young");
     require_bodies(poisson, young.size());
     require(poisson.size() == young.size(), "--poisson", poisson.front(),
-            "is one value for the two bodies of --young; give one for each");
+            "is one value for two bodies; give one for each value of --young");
     return Material::of_bodies({young[0], poisson[0]}, young.size() == 2
                                                            ? ElasticBody{young[1], poisson[1]}
                                                            : ElasticBody{});
@@ -186,41 +188,45 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
       ->file(FileUse::input);
   const Heading under(app, "Surface");
   add_quantity(app, "--size-x", size_x, Dimension::length,
-               "for files that do not state their size");
-  add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x");
+               "length along x, for files that do not state it");
+  add_quantity(app, "--size-y", size_y, Dimension::length,
+               "length along y, for files that do not state it");
   add_values(app, "--pixel-size", pixel_size, Dimension::length,
-             "distance of the points, DX or DX,DY, instead of sizes");
-  app.add_option("--lateral-unit", lateral_unit,
-                 "such as um, for XYZ points that do not name one; default m")
+             "distance between points, DX or DX,DY, instead of the lengths");
+  app.add_option(
+         "--lateral-unit", lateral_unit,
+         "unit of the positions, such as um, for XYZ points that do not name one; default m")
       ->type_name("UNIT");
   app.add_option("--height-unit", height_unit,
-                 "such as nm, for files that do not name one; default m")
+                 "unit of the heights, such as nm, for files that do not name one; default m")
       ->type_name("UNIT");
-  app.add_option("--channel", channel,
-                 "of a file with several surfaces; default: the first whose unit is a length")
+  app.add_option(
+         "--channel", channel,
+         "surface to read from a file with several; default: the first whose unit is a length")
       ->type_name("NAME|NUMBER");
-  app.add_flag("--transpose", transpose, "exchange x and y of the file, before anything else");
+  app.add_flag("--transpose", transpose, "exchange x and y of the file before any other step");
   add_quantity(app, "--despike", despike, Dimension::dimensionless,
-               "make single points undefined that are so many robust standard deviations from "
-               "their neighbours; 6 without a number")
+               "make single points undefined that are this many robust standard deviations away "
+               "from their neighbours; 6 if no number is given")
       ->value_without("6");
   add_values(app, "--crop", crop, Dimension::length,
-             "X0,Y0,X1,Y1: use this part; spikes are looked for before, undefined points filled "
-             "behind");
+             "X0,Y0,X1,Y1: use only this part; spikes are removed before cropping, undefined "
+             "points filled after it");
   app.add_flag("--fill", fill,
-               "fill all undefined points by the smoothest surface; contacts fill few without it");
-  add_choice<Detrend>(app, "--detrend", detrend,
-                      "default: plane if measured, mean if generated; lines and "
-                      "median-differences flatten a scan line by line, which changes statistics "
-                      "along y");
+               "fill all undefined points with the smoothest surface; without it contacts fill "
+               "them only if they are few");
+  add_choice<Detrend>(
+      app, "--detrend", detrend,
+      "trend to remove; default: plane if measured, mean if generated. lines and "
+      "median-differences flatten a scan line by line, which changes statistics along y");
 }
 
 void SurfaceOptions::add_recipe_to(Command& app) {
   const Heading under(app, "Surface");
   app.add_option("--recipe", recipe,
-                 "study file that says how to generate the surface, in place of SURFACE")
+                 "study file that describes the surface to generate, instead of SURFACE")
       ->file(FileUse::input);
-  add_seed(app, seed, "of --recipe; default 1");
+  add_seed(app, seed, "seed of the surface of --recipe; default 1");
 }
 
 namespace {
@@ -234,7 +240,7 @@ StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& 
   StudyConfiguration study;
   collectively(communicator, [&] { study = read_study_configuration(options.recipe); });
   require(std::holds_alternative<GeneratedSurfaces>(study.surfaces), "--recipe", options.recipe,
-          "describes no surfaces to generate; name the file of the surface as SURFACE");
+          "does not describe generated surfaces; name the file of its surface as SURFACE");
   return study;
 }
 
@@ -256,11 +262,11 @@ MeasuredSurface SurfaceOptions::measured() const {
   surface.fill = fill;
   if (!pixel_size.empty()) {
     require(pixel_size.size() <= 2, "--pixel-size", pixel_size.size(),
-            "values are too many; give DX or DX,DY");
+            "values given; it takes DX or DX,DY");
     surface.pixel_size = {pixel_size.front(), pixel_size.back()};
   }
   if (!crop.empty()) {
-    require(crop.size() == 4, "--crop", crop.size(), "values; give X0,Y0,X1,Y1");
+    require(crop.size() == 4, "--crop", crop.size(), "values given; it takes X0,Y0,X1,Y1");
     surface.crop = {crop[0], crop[1], crop[2], crop[3]};
   }
   return surface;
@@ -269,7 +275,8 @@ MeasuredSurface SurfaceOptions::measured() const {
 Surface SurfaceOptions::read(Session& session, const Communicator& communicator,
                              std::optional<Undefined> points) const {
   if (!recipe.empty()) {
-    Surface made = study_surface(recipe_of(*this, communicator), seed, session.progress(), communicator);
+    Surface made =
+        study_surface(recipe_of(*this, communicator), seed, session.progress(), communicator);
     session.warn(warnings_of_cells(made.grid));
     session.warn_if(warning_of_heights(made));
     const Detrend trend = parse_enum<Detrend>(detrend).value_or(default_detrend(made));
@@ -308,10 +315,10 @@ std::vector<std::string> warnings_of_cells(const Grid2D& grid) {
   const auto [shorter, longer] = std::minmax({grid.dx(), grid.dy()});
   if (longer <= 10 * shorter) return {};
   const double ratio = longer / shorter;
-  return {fmt::format("cells of {} x {} have sides of {} to 1; check the size and the points",
-                      format_quantity(grid.dx(), Dimension::length),
-                      format_quantity(grid.dy(), Dimension::length),
-                      ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio))};
+  return {fmt::format(
+      "cells of {} x {} have an aspect ratio of {}; check the lengths and the number of points",
+      format_quantity(grid.dx(), Dimension::length), format_quantity(grid.dy(), Dimension::length),
+      ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio))};
 }
 
 void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading) {
@@ -319,7 +326,9 @@ void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading)
 }
 
 void add_groups(Command& command, int& groups, const std::string& work) {
-  command.add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
+  command
+      .add_option("--groups", groups,
+                  "number of groups of salebra-mpi processes, each of which " + work)
       ->range(1, 1 << 20);
 }
 
@@ -329,20 +338,22 @@ void DryRunOptions::add_to(Command& command, bool of_processes) {
                    "print what would run, with its memory and time, and run nothing");
   if (!of_processes) return;
   command
-      .add_option("--ranks", communicator,
-                  "with --dry-run: of so many processes of salebra-mpi, default those that run")
+      .add_option(
+          "--ranks", ranks,
+          "with --dry-run: number of salebra-mpi processes; default: those that are running")
       ->range(1, 1 << 20);
-  command.add_option("--nodes", nodes, "with --dry-run: on so many machines")->range(1, 1 << 20);
+  command.add_option("--nodes", nodes, "with --dry-run: number of machines")->range(1, 1 << 20);
 }
 
 void OperatingPointsOptions::add_to(Command& app, const std::string& heading) {
   const Heading under(app, heading);
   add_values(app, "--normal-force", force, Dimension::force, "normal force");
-  add_values(app, "--indentation", indentation, Dimension::length, "from first touch");
+  add_values(app, "--indentation", indentation, Dimension::length, "indentation from first touch");
   add_values(app, "--pressure", pressure, Dimension::pressure,
-             "nominal pressure, of a surface or a curve");
-  add_values(app, "--mean-gap", mean_gap, Dimension::length,
-             "mean gap, of a surface or a curve; of summits, that of the undeformed surfaces");
+             "nominal pressure on a surface or a curve");
+  add_values(
+      app, "--mean-gap", mean_gap, Dimension::length,
+      "mean gap of a surface or a curve; with summits, the mean gap of the undeformed surfaces");
 }
 
 std::vector<OperatingPoints> OperatingPointsOptions::given() const {
@@ -362,13 +373,13 @@ void OperatingPointsOptions::require_one(std::string_view demand) const {
 
 void BodyOptions::add_to(Command& app, const std::string& largest) {
   add_quantity(app, "--mass", mass, Dimension::mass,
-               "m of a body on the contact, which a spring holds or drags");
+               "mass m of a body on the contact, held or dragged by a spring");
   add_quantity(app, "--spring-stiffness", spring_stiffness, Dimension::stiffness,
-               "k of the spring, without the contact");
+               "stiffness k of the spring, without the contact");
   add_quantity(app, "--falling-slope", falling_slope, Dimension::damping,
-               "b of a friction force that falls by b per velocity");
+               "slope b of a friction force that falls with velocity");
   add_quantity(app, "--max-amplitude", max_amplitude, Dimension::length,
-               "u_z up to which stable sliding is looked for; default " + largest);
+               "largest u_z to try in the search for stable sliding; default " + largest);
 }
 
 void OperatingPointOptions::add_to(Command& app) {
@@ -376,7 +387,8 @@ void OperatingPointOptions::add_to(Command& app) {
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure");
   add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces");
   add_quantity(app, "--normal-force", force, Dimension::force, "normal force");
-  add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch");
+  add_quantity(app, "--indentation", indentation, Dimension::length,
+               "indentation from first touch");
 }
 
 int OperatingPointOptions::count() const {
@@ -395,9 +407,10 @@ void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) 
     std::vector<double>& values;
     Dimension dimension;
     const char* help;
-  } const both[]{{"--frequency", frequency, Dimension::frequency, "of the normal motion, in Hz"},
-                 {"--angular-frequency", angular_frequency, Dimension::angular_frequency,
-                  "in rad/s, instead of --frequency"}};
+  } const both[]{
+      {"--frequency", frequency, Dimension::frequency, "frequency of the normal motion, in Hz"},
+      {"--angular-frequency", angular_frequency, Dimension::angular_frequency,
+       "angular frequency in rad/s, instead of --frequency"}};
   for (const auto& [name, values, dimension, help] : both)
     (one ? add_one(app, name, values, dimension, help)
          : add_values(app, name, values, dimension, help));
@@ -424,21 +437,22 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
            mode = name;
            mode_given = true;
          },
-         fmt::format("drag: slow tangential oscillation; default {}: {}", mode,
+         fmt::format("kind of motion; drag: slow tangential oscillation; default {}: {}", mode,
                      fmt::join(modes, " | ")))
       ->type_name("NAME")
       ->choices(modes);
-  add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z");
+  add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length,
+             "amplitude u_z of the normal motion");
   add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
-             "u_x, not with drag");
+             "amplitude u_x of the tangential motion, not with drag");
   add_values(app, "--phase", phase, Dimension::angle,
              "phase of x at a maximum of z, not with drag");
   add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity,
-             "v of the slow oscillation, drag");
+             "drag: velocity v of the slow tangential motion");
   frequency.add_to(app, group);
   if (with_two_frequencies)
     add_values(app, "--tangential-frequency", tangential_frequency, Dimension::frequency,
-               "two-frequencies: of the tangential motion, in Hz");
+               "two-frequencies: frequency of the tangential motion, in Hz");
 }
 
 Varied MotionOptions::varied() const {
@@ -500,8 +514,8 @@ std::vector<Motion> MotionOptions::all_motions() const {
   check(tangential_frequency, "--tangential-frequency", two);
 
   std::vector<double> omega = frequency.angular();
-  // An equal-frequency loss per cycle does not depend on the frequency: 0 says that it is not
-  // known.
+  // The loss per cycle at equal frequencies does not depend on the frequency, so ω = 0 stands for
+  // an unknown frequency.
   if (omega.empty()) omega = {0};
   for (const double value : tangential_frequency) require_positive(value, "--tangential-frequency");
   const std::size_t count = std::max<std::size_t>(1, varied().second.size());

@@ -22,28 +22,28 @@ struct FirstLoading;
 struct OperatingPoints;
 }  // namespace salebra
 
-/// Option groups that several commands share. Each is a plain struct that must outlive the parsing;
-/// add_to() declares the options, the other functions turn what was given into the library's types
-/// and throw InvalidInput that names the option.
+/// Options that several commands share, in groups. Each group is a plain struct that must outlive
+/// the parsing of the command line. add_to() declares its options. Its other functions convert
+/// their values to types of the library, and throw InvalidInput that names the option.
 namespace salebra::cli {
 
-/// --name QUANTITY, with a unit.
+/// Adds an option "--name QUANTITY" whose value is a number with an optional unit.
 Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
                      Dimension dimension, const std::string& help);
-/// --name VALUES: one quantity, a list or a range.
+/// Adds an option "--name VALUES" whose value is one quantity, a list of quantities or a range.
 Option* add_values(Command& app, const std::string& name, std::vector<double>& target,
                    Dimension dimension, const std::string& help);
-/// --name NAME out of a few; the target's present value is the default.
+/// Adds an option whose value is one of the choices. The present value of `target` is the default.
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::vector<std::string>& choices, const std::string& help);
-/// The word of a value, as options have it.
+/// The name of a value of an enumeration as options write it, with "-" for "_".
 template <class Enum>
 std::string option_word(Enum value) {
   std::string word(name_of(value));
   std::ranges::replace(word, '_', '-');
   return word;
 }
-/// The choices are the words of an enumeration.
+/// Adds an option whose value is a name of the enumeration Enum.
 template <class Enum>
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::string& help) {
@@ -52,24 +52,25 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
   return add_choice(app, name, target, words, help);
 }
 
-/// --steps of a cycle.
+/// Adds --steps, the number of steps of a cycle.
 template <class Target>
 Option* add_steps(Command& app, Target& target, const std::string& help) {
   return app.add_option("--steps", target, help);
 }
 
-/// --seed, any whole number.
+/// Adds --seed, whose value is any whole number.
 Option* add_seed(Command& app, std::uint64_t& target, const std::string& help);
 
-/// The value of an option that the other options make necessary.
+/// The value of an option that other options need; throws InvalidInput if it was not given. reason:
+/// why it is needed.
 double required(const std::optional<double>& value, std::string_view option,
                 std::string_view reason);
 
-/// Throws InvalidInput that names all missing options at once, if there is any; reason: "the
-/// material".
+/// Throws InvalidInput that names all options in `missing`, if there are any. reason: what needs
+/// them, such as "the material".
 void require_options(const std::vector<std::string>& missing, const std::string& reason);
 
-/// The two bodies.
+/// Options for the elastic constants of the two bodies.
 struct MaterialOptions {
   std::vector<double> young, poisson;
   std::optional<double> contact_modulus, tangential_modulus;
@@ -78,32 +79,34 @@ struct MaterialOptions {
   bool given() const {
     return !young.empty() || !poisson.empty() || contact_modulus || tangential_modulus;
   }
-  /// The options that material(), or material_with_tangential_modulus(), lacks.
+  /// The options that were not given and that material() needs or (tangential true)
+  /// material_with_tangential_modulus() needs.
   std::vector<std::string> missing(bool tangential) const;
-  /// E*, and G* where it is known.
+  /// The material with E* and, if it is known, G*.
   Material material() const;
-  /// E* and G*; an error where G* was not given one way or another.
+  /// The material with E* and G*; throws InvalidInput if G* is not known.
   Material material_with_tangential_modulus() const;
-  /// G*/E*; --poisson alone is enough, for one elastic body.
+  /// G*/E*. If one body is rigid, --poisson of the elastic body is enough.
   double modulus_ratio() const;
-  /// β/(πE*), 1/Pa, of the two bodies of --young, else of the material.
+  /// The coupling constant β/(πE*), 1/Pa, with Dundurs' constant β; from the two bodies of --young
+  /// or, if they are not given, from the material.
   double coupling_constant() const;
 };
 
-/// --conductivity and --resistivity.
+/// Adds --conductivity and --resistivity of the bodies.
 void add_conduction(Command& app, Conduction& bodies);
 
-/// "filtered noise" or "random phase".
+/// The method of generation in words: "filtered noise" or "random phase".
 std::string_view title_of(GenerationMethod method);
 
-/// What a surface is, before it is there.
+/// Properties of a surface that are known before it is made.
 struct SurfaceOutline {
   Grid2D grid;
   double rms_slope = 0;
-  std::string origin;  ///< "filtered noise, seed 3"
+  std::string origin;  ///< how it will be made, such as "filtered noise, seed 3"
 };
 
-/// SURFACE with its size and detrending.
+/// Options for the file of a surface (SURFACE), its size and its detrending.
 struct SurfaceOptions {
   std::string file;
   std::optional<double> size_x, size_y;
@@ -111,57 +114,62 @@ struct SurfaceOptions {
   std::vector<double> pixel_size, crop;
   std::optional<double> despike;
   bool fill = false, transpose = false;
-  bool profiles = false;  ///< the command takes line profiles too
+  bool profiles = false;  ///< whether the command also accepts line profiles
   std::string recipe;
   std::uint64_t seed = 1;
 
-  /// field: "SURFACE", or "--surface" to make it an option.
+  /// needed: whether a surface must be given. field: how help and messages call it, "SURFACE" for
+  /// an argument, "--surface" for an option.
   void add_to(Command& app, bool needed = true, const std::string& field = "SURFACE");
-  /// --recipe and --seed, in place of SURFACE.
+  /// Adds --recipe and --seed, which generate a surface in place of SURFACE.
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
-  /// Read or made, over the processes of the session, and, with --detrend or else as is customary
-  /// for its kind, detrended. points: by default filled where they are few, as contacts
-  /// need it, and all with --fill. Warns of cells, sizes and heights that are most likely a mistake.
+  /// Reads or generates the surface, spread over the processes of the session, and detrends it by
+  /// --detrend or the default for its kind. points: what to do with undefined points; by default
+  /// they are filled if they are few, or all of them with --fill, because contacts need every
+  /// point. Warns of cells, sizes and heights that are valid but suspicious.
   Surface read(Session& session, std::optional<Undefined> points = {}) const {
     return read(session, session.communicator(), points);
   }
-  /// Does so over one group of the processes.
+  /// Does the same with the surface spread over one group of processes, `communicator`.
   Surface read(Session& session, const Communicator& communicator,
                std::optional<Undefined> points = {}) const;
-  /// Returns the surface of a file. Throws InvalidInput for lists of another length.
+  /// The surface in the form of a study configuration. Throws InvalidInput for lists of the wrong
+  /// length.
   MeasuredSurface measured() const;
-  /// Reads a file; a recipe is not generated.
+  /// Size, points and origin of the surface. Reads a file, but does not generate the surface of a
+  /// recipe.
   SurfaceOutline outline(Session& session) const;
 };
 
-/// Cells ten times as long as wide, which are allowed and most likely a mistake.
+/// Warns of cells more than ten times as long as wide, which are valid but probably a mistake.
 std::vector<std::string> warnings_of_cells(const Grid2D& grid);
 
-/// Adds its columns under "first_loading", where there was one.
+/// Adds the first loading to the answer under the key "first_loading", if there was one.
 void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading);
 
-/// --groups of processes; 0: not given. `work` says what each of them does.
+/// Adds --groups, the number of groups of processes; 0: not given. `work` completes the help text
+/// "each of which …".
 void add_groups(Command& command, int& groups, const std::string& work);
 
-/// --dry-run, and the processes that it is for.
+/// Options --dry-run, and the number of processes and machines for which to estimate the cost.
 struct DryRunOptions {
   bool dry_run = false;
-  int ranks = 0, nodes = 0;  ///< 0: those that run
+  int ranks = 0, nodes = 0;  ///< 0: the number of running processes
 
-  /// of_processes: several may share the work.
+  /// of_processes: whether to add the options for the number of processes.
   void add_to(Command& command, bool of_processes = true);
 };
 
-/// Operating points of contacts: one control quantity is given, with one value or several.
+/// Options for operating points: one control quantity with one value or several.
 struct OperatingPointsOptions {
   std::vector<double> force, indentation, mean_gap, pressure;
 
   void add_to(Command& app, const std::string& heading);
-  /// The kinds that were given.
+  /// The control quantities that were given, each with its values.
   std::vector<OperatingPoints> given() const;
-  /// Throws InvalidInput where several values are given, "--pressure: 3 values given; sliding
-  /// takes one", before any contact is computed.
+  /// Throws InvalidInput if several values were given, before any contact is computed: "--pressure:
+  /// 3 values given; sliding takes one". demand: the last part of the message.
   void require_one(std::string_view demand) const;
 };
 
@@ -173,36 +181,37 @@ constexpr void describe(auto&& visit, std::type_identity<OperatingPointsOptions>
   visit(&S::mean_gap, Quantity{"mean_gap", Dimension::length, "mean gap"});
 }
 
-/// Where a contact stands. At most one is given.
+/// Options for one operating point. At most one of them may be given.
 struct OperatingPointOptions {
   std::optional<double> mean_gap, pressure, indentation, force;
 
   void add_to(Command& app);
-  /// Number of control quantities given.
+  /// Number of options given.
   int count() const;
-  /// Pa, where it or the force was given.
+  /// Nominal pressure from the pressure or the force, Pa; empty if neither was given.
   std::optional<double> nominal_pressure(const Grid2D& grid) const;
 };
 
-/// A body on the contact, and what makes its steady sliding unstable.
+/// Options for a body that rests on the contact, and for the falling slope of friction that makes
+/// its sliding unstable.
 struct BodyOptions {
   std::optional<double> mass, spring_stiffness, falling_slope, max_amplitude;
 
-  /// largest: the default of the last one.
+  /// largest: text that describes the default of --max-amplitude.
   void add_to(Command& app, const std::string& largest);
   bool given() const { return mass || spring_stiffness || falling_slope || max_amplitude; }
 };
 
-/// --frequency or --angular-frequency of the normal motion.
+/// Option --frequency or --angular-frequency of the normal motion.
 struct FrequencyOptions {
   std::vector<double> frequency, angular_frequency;
 
-  /// one: no list or range.
+  /// one: whether the options take a single value instead of a list or range.
   void add_to(Command& app, const std::string& group, bool one = false);
   bool given() const { return count() > 0; }
   std::size_t count() const { return frequency.size() + angular_frequency.size(); }
-  /// ω, rad/s, of each; empty: none was given. Throws InvalidInput where both were, and for values
-  /// that are not > 0.
+  /// Angular frequency ω for each value that was given, rad/s; empty if no frequency was given.
+  /// Throws InvalidInput if both options were given, and for values that are not > 0.
   std::vector<double> angular() const;
 };
 
@@ -212,21 +221,22 @@ constexpr void describe(auto&& visit, std::type_identity<FrequencyOptions>) {
   visit(&S::angular_frequency, quantity::angular_frequency);
 }
 
-/// Name and values of the quantity with several values; empty if there is none.
+/// Name and values of the one quantity that has several values; empty if there is none.
 using Varied = std::pair<std::string, std::vector<double>>;
-/// Looks among described lists. Throws InvalidInput for a second one.
+/// Searches the described lists for the one with several values. Throws InvalidInput if a second
+/// list has several values.
 template <Described Lists>
 void find_varied(const Lists& lists, Varied& found) {
   for_each_column<Lists>([&](const auto& list, const Quantity& quantity) {
     const std::vector<double>& values = list(lists);
     if (values.size() < 2) return;
     require(found.second.empty(), quantity.name, std::to_string(values.size()) + " values",
-            "are a second range; only one quantity may be a range");
+            "given, but `" + found.first + "` has several values too; only one quantity may");
     found = {std::string(quantity.name), values};
   });
 }
 
-/// What moves; any one quantity may be a range.
+/// Options of the motion. One of its quantities may be a range or list.
 struct MotionOptions {
   std::string mode = "drag";
   bool mode_given = false;
@@ -234,22 +244,24 @@ struct MotionOptions {
       drag_velocity;
   FrequencyOptions frequency;
 
-  /// with_two_frequencies: offers --mode two-frequencies; then use all_motions().
+  /// with_two_frequencies: whether to offer --mode two-frequencies too; the motions then come from
+  /// all_motions().
   void add_to(Command& app, bool with_two_frequencies = false);
-  /// Whether any of them was.
+  /// Whether any option of the motion was given.
   bool given() const {
     return mode_given || !normal_amplitude.empty() || !tangential_amplitude.empty() ||
            !phase.empty() || frequency.given() || !tangential_frequency.empty() ||
            !drag_velocity.empty();
   }
-  /// Takes what was not given from a known motion, as far as the mode has it.
+  /// A copy in which options that were not given have the values of a known motion, as far as the
+  /// mode uses them.
   MotionOptions completed_from(const Oscillation& known) const;
-  /// The options that the mode lacks.
+  /// The options that the mode needs and that were not given.
   std::vector<std::string> missing() const;
-  /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities
-  /// have several values.
+  /// One motion for each value of the quantity that is a range or list. Throws InvalidInput if two
+  /// quantities have several values.
   std::vector<Oscillation> motions() const;
-  /// The motions, --mode two-frequencies among them.
+  /// The same motions, for all modes including two-frequencies.
   std::vector<Motion> all_motions() const;
   Varied varied() const;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON, HDF5, panels and warnings of an oscillating contact.
+// JSON, HDF5, figures and warnings of an oscillating contact.
 #include "oscillation_answer.hpp"
 
 #include <fmt/format.h>
@@ -18,14 +18,15 @@
 namespace salebra::cli {
 namespace {
 
-/// The numbers of a cycle; no balance where it loses no more than what the solvers leave.
+/// JSON with the numbers of a cycle. The energy balance is left out if the loss is not larger than
+/// the error of the solvers.
 Json cycle_json(const OscillationOutcome& outcome, const CycleResult& cycle) {
   Json object = json_of(cycle);
   object["balance"] = outcome.balance(cycle);
   return object;
 }
 
-/// Columns over time, by their names.
+/// Adds columns of a cycle over the time, by their names in the description.
 void add_columns(Json& object, const CycleResult& cycle,
                  std::initializer_list<std::string_view> names) {
   const Json all = json_of(cycle.samples);
@@ -49,7 +50,7 @@ void add_friction(Json& object, const OscillationOutcome& outcome) {
   }
 }
 
-/// Axes, columns over time, where the contact is and where energy is lost.
+/// Writes a cycle: coordinates, columns over the time, and maps of contact and of the energy lost.
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid) {
   group.axes(grid);
   group.dataset("contact_map", cycle.contact_map());
@@ -72,20 +73,20 @@ void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain
                    Session& session) {
   if (!cycle.converged() || std::abs(cycle.work_per_cycle) <= uncertain) return;
   if (!cycle.steady)
-    session.warn(fmt::format(
-        "{}: after {} periods the loss still differs from that of the period before by more than "
-        "1e-5 of it; raise --max-periods",
-        which, cycle.periods));
+    session.warn(
+        fmt::format("{}: after {} periods the loss still changes by more than 1e-5 of itself per "
+                    "period; raise --max-periods",
+                    which, cycle.periods));
   if (std::abs(cycle.balance()) > 0.01)
     session.warn(
-        fmt::format("{}: work and dissipation of a period, which should be equal, differ by "
-                    "{:.2g} %; more --steps may help",
+        fmt::format("{}: work and dissipation in a period should be equal but differ by {:.2g} %; "
+                    "more --steps may help",
                     which, 100 * cycle.balance()));
   const double gaps = cycle.gap_work / cycle.work_per_cycle;
   if (std::abs(gaps) > 0.01)
     session.warn(
         fmt::format("{}: {:.2g} % of the loss is work across gaps that close and open within a "
-                    "step; more --steps help",
+                    "step; use more --steps",
                     which, 100 * gaps));
 }
 
@@ -110,7 +111,7 @@ Json to_json(const OscillationOutcome& outcome) {
     add_columns(object, cycle, {"time_in_periods", "work"});
     const double omega =
         std::visit([](const auto& motion) { return motion.angular_frequency; }, outcome.run.motion);
-    // Unknown without a frequency.
+    // Times in seconds are unknown without a frequency.
     std::vector<double> time = column(cycle, &CycleSample::t);
     for (double& moment : time)
       moment = omega > 0 ? moment * 2 * std::numbers::pi / omega
@@ -219,11 +220,12 @@ void warn_of(const OscillationOutcome& outcome, Session& session) {
     warn_of_cycle("friction", *outcome.frictional, outcome.uncertain_loss(), session);
   if (outcome.coupled) {
     warn_of_cycle("coupling", *outcome.coupled, outcome.uncertain_loss(), session);
-    if (outcome.dundurs == 0) session.inform("Dundurs' beta is 0: nothing is coupled");
+    if (outcome.dundurs == 0)
+      session.inform("Dundurs' beta is 0, so normal and tangential directions are not coupled");
   }
   if (outcome.choice && !outcome.choice->reached)
     session.warn(
-        fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
+        fmt::format("the requested relative error was not reached: it is {:.2g} with {} x {} cells "
                     "and {} intervals",
                     outcome.choice->error_estimate / std::abs(outcome.intervals.work_per_cycle),
                     outcome.choice->grid.nx, outcome.choice->grid.ny, outcome.choice->intervals));

@@ -8,24 +8,28 @@
 #include "io/plot.hpp"
 #include "session.hpp"
 
-/// How `oscillate` tells its outcomes.
+/// JSON, files and figures of `salebra oscillate`.
 namespace salebra::cli {
 
-/// With the objects "friction" and "coupling" of the cycles that there are.
+/// JSON of an outcome. It has the objects "friction" and "coupling" if these cycles were simulated.
 Json to_json(const OscillationOutcome& outcome);
-/// Groups PREFIXcycle, PREFIXfriction, PREFIXcoupling and PREFIXlevels: columns over time, where
-/// the contact is, and where energy is lost.
+/// Writes the groups PREFIXcycle, PREFIXfriction, PREFIXcoupling and PREFIXlevels, with columns
+/// over the time and maps of contact and of the energy lost.
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome);
-/// Warns of losses that are not steady yet, of sums that differ, of an error that was not reached.
+/// Warns of losses that have not become periodic, of an energy balance that does not close, and of
+/// a requested error that was not reached.
 void warn_of(const OscillationOutcome& outcome, Session& session);
 
-/// Fig. 3b: black always in contact, grey during a part of the cycle.
+/// Fig. 3b of the paper: map of the cells, black if always in contact, grey if in contact during a
+/// part of the cycle.
 PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title);
-/// Fig. 3c: W(t) over Eq. (12) for equal frequencies; the energy released so far over Eq. (15) for
-/// drag. Over ½Ku² where nothing is lost.
+/// Fig. 3c of the paper, over the time: at equal frequencies the work W(t) divided by the loss of
+/// Eq. (12), under a drag the energy released so far divided by the loss of Eq. (15). If no energy
+/// is lost, the work is divided by ½K_t u² with the tangential amplitude u instead.
 PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title);
 
-/// The loops F_x over x of a cycle with friction, of the coupled one, and without slip.
+/// Loops of tangential force F_x over displacement x for the cycles without slip, with friction and
+/// with coupling.
 PlotPanel loop_panel(const OscillationOutcome& outcome);
 
 }  // namespace salebra::cli

@@ -35,12 +35,12 @@ namespace salebra::cli {
 namespace {
 
 int fail(int status, std::string_view message) {
-  // CLI11 quotes what it was given, however long.
+  // Shortens the message, because the parser quotes arguments of any length.
   constexpr std::size_t longest = 2000;
   std::string line = printable(shortened(in_options(message), longest));
   std::ranges::replace_if(line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_to_stderr(fmt::format("{}: {} {}\n", program_name(),
-                           emphasised("error:", Emphasis::error, STDERR_FILENO), line));
+                              emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
 }
 
@@ -61,16 +61,17 @@ std::string help_hint(const CLI::App& app) {
              : fmt::format("see {} {} --help", program_name(), chosen.front()->get_name());
 }
 
-/// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its
-/// consequences, such as the lack of the right one.
+/// The error message for a command line that the parser refused. A misspelt option is reported
+/// before errors that follow from it, such as the absence of the correct option.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
-  // CLI11 counts words: "--angle: At Most 1 required but received 2", "--law: 1 required NAME
-  // missing".
+  // The parser counts words, as in "--angle: At Most 1 required but received 2" or "--law: 1
+  // required NAME missing".
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
     const std::string said = error.what(), option = said.substr(0, said.find(':'));
-    if (said.ends_with(" missing")) return option + ": has no value; write one behind it";
+    if (said.ends_with(" missing")) return option + ": has no value; write one after it";
     if (said.find("At Most") != std::string::npos)
-      return option + ": is given more than once; several values go behind one, with commas";
+      return option +
+             ": given more than once; write several values after one option, separated by commas";
   }
   const auto chosen = app.get_subcommands();
   const std::vector<std::string> words = app.remaining(true);
@@ -86,19 +87,18 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const auto option = std::ranges::find_if(words, [](const auto& word) { return word[0] == '-'; });
   if (option == words.end()) {
     const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error);
-    return extra ? words.front() + ": is one argument too many" : error.what();
+    return extra ? words.front() + ": one argument too many" : error.what();
   }
   std::vector<std::string> options;
   for (const CLI::Option* known : chosen.front()->get_options())
     for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
   const std::string name = option->substr(0, option->find('='));
   const bool adhesion = name == "--work-of-adhesion" || name == "--adhesion-range";
-  return fmt::format("{}: is not an option of {} {}{}", name, program_name(),
-                     chosen.front()->get_name(),
-                     adhesion ? ": with adhesion, points may be released in another order than "
-                                "they were pressed, for which no loss is known here; use contact, "
-                                "or [adhesion] of a study"
-                              : did_you_mean(name, options));
+  return fmt::format(
+      "{}: is not an option of {} {}{}", name, program_name(), chosen.front()->get_name(),
+      adhesion ? ": with adhesion points may separate in another order than they touched, and then "
+                 "the loss is not known; use contact, or [adhesion] of a study"
+               : did_you_mean(name, options));
 }
 
 CLI::Validator validator_of(const std::vector<std::string>& choices) {
@@ -147,9 +147,10 @@ void declare(CLI::App& app, Command& command) {
   });
 }
 
-/// What several processes compute together; the rest is for one.
+/// Commands that several processes can compute together; all other commands take one process.
 constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study"};
-/// Commands that keep what is finished when they are interrupted: they ask themselves whether to stop.
+/// Commands that keep finished results when they are interrupted, and so check for an interruption
+/// themselves.
 constexpr std::string_view keeping_commands[] = {"compare", "contact", "oscillate", "study"};
 
 bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
@@ -167,9 +168,10 @@ Command& Program::add_command(const std::string& name, const std::string& what,
       [this, common, name, action = std::move(action), line = command_line_, check,
        &launch = launch_] {
         if (!is_one_of(name, spread_commands)) require_one_process(launch, name);
-        // One of several processes that stopped alone would leave the others waiting.
+        // With several processes a check that throws in one process would leave the others waiting.
         std::optional<detail::StopCheck> stops;
-        if (launch.communicator.alone() && !is_one_of(name, keeping_commands)) stops.emplace(interrupted);
+        if (launch.communicator.alone() && !is_one_of(name, keeping_commands))
+          stops.emplace(interrupted);
         const int threads = std::min(common->threads, parallel::max_threads());
         parallel::set_threads(threads);
         Session session(*common, line, check, launch);
@@ -190,9 +192,9 @@ Command& Program::add_command(const std::string& name, const std::string& what,
                    ? std::string()
                    : text + " must be a whole number >= 0";
       });
-  command.add_flag("--quiet", common->quiet, "nothing on stderr but errors");
+  command.add_flag("--quiet", common->quiet, "print nothing but errors on stderr");
   add_choice(command, "--progress", common->progress, {"auto", "always", "never"},
-             "default auto, on a terminal only");
+             "progress bar; default auto, on a terminal only");
   command.under("Options");
   if (!picture.empty())
     command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
@@ -202,23 +204,24 @@ Command& Program::add_command(const std::string& name, const std::string& what,
 
 namespace {
 
-/// Thrown for a command line that is not understood.
+/// Thrown for a command line that cannot be parsed.
 struct NotUnderstood : Error {
   using Error::Error;
 };
 
-/// Processes with other arguments would wait for each other without end.
+/// Throws InvalidInput if processes were started with different arguments: they would wait for each
+/// other for ever.
 void require_one_command(const std::string& command_line, const Communicator& communicator) {
   const std::vector<std::string> lines =
       communicator.gather_all(fmt::format("{} {}", version(), command_line));
   for (std::size_t rank = 1; rank < lines.size(); ++rank)
     if (lines[rank] != lines.front())
       throw InvalidInput(fmt::format("process {}", rank + 1),
-                         "has other arguments than process 1, or another version of the program; "
-                         "give all processes the same");
+                         "has different arguments or a different version of the program than "
+                         "process 1; give all processes the same");
 }
 
-/// Commands of earlier revisions: a line each with the command that now does it, and how.
+/// Commands of earlier versions, each with the command and options that replace it.
 struct FormerCommand {
   std::string_view name, now;
 };
@@ -234,7 +237,8 @@ constexpr FormerCommand former_commands[]{
     {"sweep", "contact, with several values of --pressure"},
 };
 
-/// Writes the number after an option that goes without one: CLI11 would take whatever follows.
+/// Inserts the default number after each option that may be given without one; otherwise the parser
+/// would take the next word for the number.
 void complete_options(const Command& command, std::vector<std::string>& words) {
   for (const Option& option : command.options()) {
     if (option.value_without().empty()) continue;
@@ -247,7 +251,8 @@ void complete_options(const Command& command, std::vector<std::string>& words) {
   }
 }
 
-/// Parses and runs. Throws NotUnderstood, and what the command throws.
+/// Parses the command line and runs the command. Throws NotUnderstood and the errors of the
+/// command.
 void run(int argc, char** argv, const Launch& launch) {
   require_one_command(join(argc, argv), launch.communicator);
   const std::string name(program_name());
@@ -263,7 +268,7 @@ void run(int argc, char** argv, const Launch& launch) {
     if (launch.communicator.is_root()) print_answer(wrapped(text, text_width()));
   };
   std::vector<std::string> words(argv + 1, argv + argc);
-  // salebra help [COMMAND]
+  // The command line is "salebra help" or "salebra help COMMAND"
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
     if (words == std::vector<std::string>{"options"})
@@ -288,11 +293,12 @@ void run(int argc, char** argv, const Launch& launch) {
     name_options(*chosen);
     complete_options(*chosen, words);
   }
-  // To declare the options of all commands took a third of the start.
+  // Declares only options of commands that the command line names. Declaring those of all commands
+  // took a third of the start-up time.
   for (Command& command : program.commands())
     if (std::ranges::find(words, command.name()) != words.end()) declare(app, command);
   try {
-    std::ranges::reverse(words);  // as CLI11 takes them
+    std::ranges::reverse(words);  // the parser takes the words in reverse order
     app.parse(words);
   } catch (const CLI::CallForHelp&) {
     show(chosen == program.commands().end() ? program_help(program.commands())
@@ -306,7 +312,7 @@ void run(int argc, char** argv, const Launch& launch) {
 
 constexpr std::string_view no_memory = "memory: not enough for this grid; use fewer points";
 
-/// Allocates nothing.
+/// Prints that memory is lacking, without allocating memory.
 void print_lack_of_memory() noexcept {
   print_to_stderr(program_name());
   print_to_stderr(": error: ");
@@ -314,8 +320,8 @@ void print_lack_of_memory() noexcept {
   print_to_stderr("\n");
 }
 
-/// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor,
-/// while another is thrown.
+/// Ends the program if an allocation fails where an exception cannot propagate: in an OpenMP
+/// thread, in a destructor, or while another exception is thrown.
 [[noreturn]] void end_without_unwinding() {
   try {
     if (std::current_exception()) throw;
@@ -327,13 +333,13 @@ void print_lack_of_memory() noexcept {
   std::abort();
 }
 
-/// Exit status of a failure, which is said by the root where all processes have failed, and else by
-/// this one, which ends the others.
+/// Prints a failure and returns its exit status. If all processes have failed, the first process
+/// prints the message. Otherwise this process prints it and ends the other processes.
 int end(const Launch& launch, int status, std::string_view message) {
   if (launch.communicator.alone()) return fail(status, message);
   if (launch.all_here()) return launch.communicator.is_root() ? fail(status, message) : status;
-  fail(status,
-       fmt::format("process {} of {}: {}", launch.communicator.rank() + 1, launch.communicator.size(), message));
+  fail(status, fmt::format("process {} of {}: {}", launch.communicator.rank() + 1,
+                           launch.communicator.size(), message));
   launch.abort(status);
   return status;
 }
@@ -343,13 +349,14 @@ int end(const Launch& launch, int status, std::string_view message) {
 int run_program(int argc, char** argv, const Launch& launch) {
   name_program(launch.name);
   std::set_terminate(end_without_unwinding);
-  // Past a file-size limit a write must fail like on a full disk, and so must printing to a pipe
-  // that nobody reads: neither may kill the process beside a half-written file.
+  // Writing past a file-size limit or to a pipe without a reader must fail like writing to a full
+  // disk, and not kill the process and leave a half-written file.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   catch_interrupts();
-  // Libraries of networks do not survive a child process. Several processes trust the files that
-  // they are given.
+  // Confinement and import helper start child processes, which network libraries of MPI do not
+  // survive. With several processes, files are therefore read without confinement and must be
+  // trusted.
   if (launch.communicator.alone()) {
     confinement::install();
     install_import_helper();

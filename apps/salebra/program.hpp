@@ -12,29 +12,29 @@
 
 namespace salebra::cli {
 
-/// Parses the command line and runs the command it names.
-/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130
-/// interrupted. Of several processes the root says what all of them failed of; a failure of some
-/// alone is said by those, with their place, and ends all processes.
+/// Parses the command line and runs the command that it names. Returns the exit status: 0 done, 1
+/// failed while running, 2 bad usage or input, 3 surfaces of a study are missing, 130 interrupted.
+/// With several processes an error of all processes is printed by the first one. An error of only
+/// some processes is printed by these, with their numbers, and ends all processes.
 int run_program(int argc, char** argv, const Launch& launch = {});
 
-/// All commands, each with the common options. An action runs after all options have been read.
+/// All commands of the program, each with the common options. The action of a command runs after
+/// all options have been read.
 class Program {
  public:
   using Action = std::function<void(Session&)>;
 
-  /// launch: outlives it.
+  /// launch: must outlive the program.
   Program(std::string command_line, const Launch& launch)
       : command_line_(std::move(command_line)), launch_(launch) {}
 
-  /// examples: two command lines with what they do, shown at the end of --help.
-  /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has
-  /// no such option.
+  /// examples: two command lines that --help shows. picture: description of the picture in the help
+  /// of --plot; empty: the command has no --plot.
   Command& add_command(const std::string& name, const std::string& what,
                        const std::array<std::string, 2>& examples, Action action,
                        const std::string& picture = "", OutputCheck check = OutputCheck::results);
 
-  /// The commands in the order of the help; each keeps its address.
+  /// The commands in the order of the help. References to them stay valid.
   const std::deque<Command>& commands() const { return commands_; }
   std::deque<Command>& commands() { return commands_; }
 

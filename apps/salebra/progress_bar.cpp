@@ -21,8 +21,8 @@ void ProgressBar::draw(const ProgressReport& report) {
   const double fraction = std::clamp(report.fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(fraction * width);
   print_to_stderr(fmt::format("\r\033[K{:<14} [{}{}] {:3.0f} %", report.stage,
-                           std::string(filled, '#'), std::string(width - filled, '.'),
-                           100 * fraction));
+                              std::string(filled, '#'), std::string(width - filled, '.'),
+                              100 * fraction));
 }
 
 void ProgressBar::clear() {

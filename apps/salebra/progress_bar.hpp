@@ -6,12 +6,13 @@
 
 namespace salebra::cli {
 
-/// One line on stderr that is redrawn in place, at most ten times a second.
+/// A line on standard error that shows the progress and is redrawn in place, at most ten times a
+/// second.
 class ProgressBar {
  public:
   explicit ProgressBar(bool visible) : visible_(visible) {}
   void draw(const ProgressReport& report);
-  /// Removes the line, so that other text can be printed.
+  /// Removes the line from the screen, so that other text can be printed.
   void clear();
 
  private:

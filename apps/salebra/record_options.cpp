@@ -10,7 +10,7 @@ namespace salebra::cli {
 
 void RecordOptions::add_to(Command& app) {
   app.add_option("--checkpoint", checkpoint,
-                 "file that keeps the state of the cycle while it runs; removed at its end")
+                 "file in which the state of the cycle is kept while it runs; removed at its end")
       ->file(FileUse::output);
   add_quantity(app, "--checkpoint-every", checkpoint_every, Dimension::time,
                "time between checkpoints; default 60 s, 0 for every step");
@@ -21,7 +21,7 @@ void RecordOptions::add_to(Command& app) {
                  "displacements, pressure, gap")
       ->type_name("PREFIX");
   add_values(app, "--field-steps", field_steps, Dimension::dimensionless,
-             "steps to write fields of; default nine over the cycle");
+             "steps at which fields are written; default nine over the cycle");
 }
 
 void RecordOptions::check(int steps, const std::vector<std::string>& cycles,
@@ -41,9 +41,9 @@ void RecordOptions::check(int steps, const std::vector<std::string>& cycles,
   require_output(checkpoint, {.overwrite = true});
   const bool there = std::filesystem::exists(checkpoint);
   require(there || !resume, "--resume", checkpoint,
-          "is not there; leave out --resume to begin the cycle");
+          "does not exist; leave out --resume to start the cycle");
   require_that(!there || resume || session.write_options().overwrite, checkpoint,
-               "exists; add --resume to continue from it, or --overwrite to begin anew");
+               "exists already; add --resume to continue from it, or --overwrite to start again");
 }
 
 CycleRecordOptions RecordOptions::options(int steps, const Session& session) const {

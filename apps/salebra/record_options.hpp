@@ -10,7 +10,7 @@
 
 namespace salebra::cli {
 
-/// Checkpoints and fields of a long cycle.
+/// Options for checkpoints and fields of a long simulated cycle.
 struct RecordOptions {
   std::string checkpoint, fields;
   std::optional<double> checkpoint_every;
@@ -18,10 +18,10 @@ struct RecordOptions {
   std::vector<double> field_steps;
 
   void add_to(Command& app);
-  /// Refuses, before any work, files that do not suit what is requested. cycles: names of those
-  /// that are recorded. Throws InvalidInput for a step that is none of the cycle's.
+  /// Throws InvalidInput before any work for files that must not be written or contradict each
+  /// other, and for steps that the cycle does not have. cycles: names of the recorded cycles.
   void check(int steps, const std::vector<std::string>& cycles, Session& session) const;
-  /// The same as the library takes them.
+  /// The options in the form of the library.
   CycleRecordOptions options(int steps, const Session& session) const;
 
  private:

@@ -35,14 +35,14 @@ Quantity quantity_of(const std::string& name, const std::string& object) {
 
 namespace {
 
-/// A number, 1 or 0 of a truth, NaN of null.
+/// Converts JSON to a number: 1 or 0 for a boolean, NaN for null.
 double number_of(const Json& value) {
   if (value.is_boolean()) return value.truth() ? 1 : 0;
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
 }
 
-/// An HDF5 group of that name with a scalar for each number, a dataset over `sample` for each array,
-/// a group for each object, an attribute for each text.
+/// Writes a JSON object as an HDF5 group: a scalar for each number, a dataset with the coordinate
+/// `sample` for each array, a group for each object, and an attribute for each text.
 void write_answer(ResultFile& file, const std::string& path, const Json& object) {
   ResultGroup group = file.group(path);
   bool has_samples = false;
@@ -72,11 +72,12 @@ Kind kind_of(const std::filesystem::path& file) {
   if (extension == ".h5" || extension == ".hdf5") return Kind::hdf5;
   if (extension == ".json") return Kind::json;
   require(extension == ".csv", "--output", file.string(),
-          "has no extension of a table; use .h5, .json or .csv");
+          "does not end in the extension of a table; use .h5, .json or .csv");
   return Kind::csv;
 }
 
-/// scan.csv and "psd" make scan.psd.csv.
+/// Name of the file for a table next to the file of --output: "scan.csv" and "psd" give
+/// "scan.psd.csv".
 std::filesystem::path beside(std::filesystem::path file, const std::string& table) {
   return file.replace_extension(table + ".csv");
 }
@@ -154,7 +155,7 @@ void write_files(const Session& session, const std::string& group, const Json& a
         for (std::size_t k = 1; k < table.columns.size(); ++k) {
           const ResultColumn& column = table.columns[k];
           location.dataset(column.name, column.values, {first.name}, column.units(),
-                        column.long_name());
+                           column.long_name());
         }
         if (!table.note.empty()) location.attribute("note", table.note);
       }

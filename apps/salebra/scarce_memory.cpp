@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the program makes of libraries that do not survive a failed allocation.
+// Guards against libraries that do not survive a failed allocation.
 #include "scarce_memory.hpp"
 
 #include <hdf5.h>
@@ -17,8 +17,8 @@ namespace {
 
 }  // namespace
 
-// FFTW's planner ends the process where it gets no memory, by a function that the dynamic linker
-// looks up in the program first.
+// FFTW ends the process through this function if an allocation in its planner fails. The dynamic
+// linker looks it up in the program first, so this definition replaces that of FFTW.
 extern "C" {
 [[noreturn]] void fftw_assertion_failed(const char*, int, const char* file) {
   fail_assertion(file);
@@ -31,8 +31,8 @@ extern "C" {
 namespace salebra::cli {
 
 void prepare_for_scarce_memory() {
-  // HDF5's cleanup at exit crashes after a failed allocation, as its first call does. All files are
-  // closed by then.
+  // HDF5's cleanup at exit crashes after a failed allocation, and so does its first call. The
+  // cleanup is turned off, since all files are closed by then, and the first call is made now.
   H5dont_atexit();
   H5open();
 }

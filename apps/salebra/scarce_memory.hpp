@@ -3,8 +3,8 @@
 
 namespace salebra::cli {
 
-/// Starts the libraries that crash where their first call gets no memory. To be called before the
-/// work; 0.6 ms.
+/// Initialises the libraries that crash if memory runs out in their first call. Must be called
+/// before the work of a command; takes 0.6 ms.
 void prepare_for_scarce_memory();
 
 }  // namespace salebra::cli

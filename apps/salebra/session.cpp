@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one command run needs: common options, output checks, progress, notes, answer, interruption.
+// Services for one run of a command: common options, output checks, progress, notes, answer,
+// interruption.
 #include "session.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
 extern "C" void note_interrupt(int) {
   interrupt_seen = 1;
-  // Any second one ends the command, not only one of the same kind.
+  // A second signal of any kind ends the command.
   for (const int sign : {SIGINT, SIGTERM, SIGUSR1, SIGHUP}) {
     struct sigaction now = {};
     if (sigaction(sign, nullptr, &now) == 0 && now.sa_handler == note_interrupt)
@@ -39,8 +40,8 @@ extern "C" void note_interrupt(int) {
   }
 }
 
-/// "one of 64 tasks", as MPI's launchers and Slurm say in the environment; empty: of one. PMIX_RANK
-/// tells the place alone.
+/// "one of 64 tasks", from the environment variables of MPI launchers and Slurm; empty for a single
+/// task. PMIX_RANK tells only that there are several tasks and the number of this one.
 std::string place_among_tasks() {
   for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* text = std::getenv(variable); text && std::atoi(text) > 1)
@@ -59,9 +60,9 @@ void catch_interrupts() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // As schedulers are told to send it some time before they kill.
+  // Job schedulers can be set to send SIGUSR1 some time before they kill a job.
   sigaction(SIGUSR1, &action, nullptr);
-  // nohup has it ignored.
+  // Leaves SIGHUP ignored if nohup has set it so.
   struct sigaction hangup = {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
@@ -85,8 +86,9 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
     if (has_plot() && communicator().is_root()) require_plot(options_.plot, write_options());
   });
   if (!communicator().alone()) warn_of_few_cores();
-  // A file may name others that are read. Of several processes only the root knows what is written,
-  // and one that refuses alone would leave the others waiting.
+  // A file may name other files to read, so each file is checked when it is opened. With several
+  // processes this is not done: only the first one knows the files to write, and if it threw alone
+  // the others would wait.
   if (options_.overwrite && communicator().alone())
     detail::set_input_watcher([this](const std::filesystem::path& file) {
       if (!may_read_output_) files_.opens(file);
@@ -103,25 +105,24 @@ void Session::warn_of_few_cores() {
       CPU_SET(core, &mine);
   const std::string bytes(reinterpret_cast<const char*>(&mine), sizeof mine);
   cpu_set_t cores = mine;
-  for (const std::string& other : launch_.ranks_of_node.gather_all(bytes)) {
+  for (const std::string& other : launch_.communicator_of_node.gather_all(bytes)) {
     cpu_set_t set;
     std::memcpy(&set, other.data(), sizeof set);
     CPU_OR(&cores, &cores, &set);
   }
   int threads = 0;
   for (const std::string& count :
-       launch_.ranks_of_node.gather_all(std::to_string(parallel::threads())))
+       launch_.communicator_of_node.gather_all(std::to_string(parallel::threads())))
     threads += std::stoi(count);
   char host[256] = "";
   gethostname(host, sizeof host - 1);
   const int available = CPU_COUNT(&cores);
   const std::string line =
-      threads > available
-          ? fmt::format(
-                "{} processes with {} threads in all share {} cores of {}; use fewer "
-                "processes or --threads, or bind processes to more cores",
-                launch_.ranks_of_node.size(), threads, available, host)
-          : "";
+      threads > available ? fmt::format(
+                                "{} processes with {} threads in total share {} cores of {}; use "
+                                "fewer processes or --threads, or bind the processes to more cores",
+                                launch_.communicator_of_node.size(), threads, available, host)
+                          : "";
   for (const std::string& found : communicator().gather_all(line))
     if (!found.empty()) return warn(found);
 }
@@ -132,14 +133,15 @@ WriteOptions Session::write_options() const {
   const std::string index = communicator().alone() ? place_among_tasks() : "";
   if (!index.empty() && !launch_.mpi.empty())
     throw InvalidInput("--output",
-                       fmt::format("would be written by each of several tasks, for this is {} "
-                                   "and yet alone; start it with the mpirun of its own MPI",
+                       fmt::format("would be written by each of several tasks: this process is {} "
+                                   "but runs alone; start it with the mpirun of its own MPI",
                                    index));
   if (!index.empty())
     throw InvalidInput(
-        "--output", fmt::format("would be written by each of several tasks, for this is {}; start "
-                                "one, or use salebra-mpi for one surface, study --shard for many",
-                                index));
+        "--output",
+        fmt::format("would be written by each of several tasks: this process is {}; start only "
+                    "one, or use salebra-mpi for one surface and study --shard for many",
+                    index));
   return {.overwrite = options_.overwrite};
 }
 
@@ -147,7 +149,7 @@ void Session::require_result_name() const {
   const std::string extension = output().extension().string();
   require(!has_output() || extension == ".h5" || extension == ".hdf5", "--output",
           output().string(),
-          "is no name for results in HDF5; name it .h5, or print them: --json > result.json");
+          "is not a name of an HDF5 file; name it .h5, or print the results: --json > result.json");
 }
 
 void Session::require_free_output() const {
@@ -160,12 +162,11 @@ void Session::name_files(const std::deque<Option>& options) {
   for (const Option& option : options)
     for (const std::string& file : option.files()) {
       const std::string& name = option.names().back();
-      require(!file.empty(), name, "''", "names no file");
+      require(!file.empty(), name, "''", "does not name a file");
       if (file == "-")
-        throw InvalidInput(
-            name, file,
-            "is no file: standard input and output are not read or written in place of "
-            "one; name a file, or write ./- for a file of that name");
+        throw InvalidInput(name, file,
+                           "is not a file; standard input and output cannot be used here. Name a "
+                           "file, or write ./- for a file named -");
       if (option.file_use() == FileUse::output) {
         writes(name, file, option.partner());
         if (std::filesystem::path(file).extension() == ".npy")
@@ -223,7 +224,7 @@ void Session::warn(std::string_view text) {
   if (options_.quiet) return;
   bar_.clear();
   print_to_stderr(fmt::format("{}: {} {}\n", program_name(),
-                           emphasised("warning:", Emphasis::warning, STDERR_FILENO), said));
+                              emphasised("warning:", Emphasis::warning, STDERR_FILENO), said));
 }
 
 void Session::warn(const std::vector<std::string>& lines) {

@@ -30,26 +30,28 @@ struct CommonOptions {
   bool json = false;
   bool overwrite = false;
   bool quiet = false;
-  std::string output;  ///< empty: none
+  std::string output;  ///< file for the results; empty: none
   std::string plot;    ///< picture to draw; empty: none
-  int threads = 0;     ///< 0: all
+  int threads = 0;     ///< 0: as many as the machine has
   std::string progress = "auto";
 };
 
 /// What --output may name.
 enum class OutputCheck {
-  results,     ///< an HDF5 file that is not there yet
-  curve,       ///< a file of a curve that is not there yet, as write_force_curve() knows them
-  by_command,  ///< an HDF5 file; one that is in the way is a matter for the command itself
-  any_name     ///< a file that is not there yet; the command knows formats of its own
+  results,  ///< an HDF5 file that does not exist yet
+  curve,    ///< a file for write_force_curve() that does not exist yet
+  /// An HDF5 file; the command itself decides whether an existing file may be replaced.
+  by_command,
+  any_name  ///< a file that does not exist yet; the command itself checks the format
 };
 
-/// One run of a command: where its answer, its warnings and its progress go. Of several processes
-/// the root alone prints, draws and makes files; the others do what is collective.
+/// One run of a command: receives its answer, warnings and progress. With several processes only
+/// the first one prints, draws and makes files; the others take part in the calls that all
+/// processes must make.
 class Session {
  public:
-  /// Throws InvalidInput where the output may not be written, so that no work is done
-  /// unnecessarily. Collective. launch: outlives it.
+  /// Throws InvalidInput before any work if the file of --output must not be written. All processes
+  /// must call. launch: must outlive the session.
   Session(CommonOptions options, std::string command_line, OutputCheck check, const Launch& launch);
 
   ~Session();
@@ -58,53 +60,53 @@ class Session {
 
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
-  /// The processes that compute together, for what is spread over them.
+  /// The communicator of all processes, for work on distributed surfaces.
   const Communicator& communicator() const { return launch_.communicator; }
   void require_one_process(std::string_view what) const { cli::require_one_process(launch_, what); }
-  /// interrupted() of any process. Collective: all processes get the same answer.
+  /// Whether interrupted() is true in any process. All processes must call and get the same answer.
   bool stopped() const;
-  /// Throws as the constructor does. Collective.
+  /// Throws InvalidInput if the file of --output must not be written. All processes must call.
   void require_free_output() const;
-  /// Throws InvalidInput unless --output, where it was given, names an HDF5 file.
+  /// Throws InvalidInput if --output was given and does not name an HDF5 file.
   void require_result_name() const;
-  /// The files that options name, then others that the command reads or writes, before its work.
-  /// Throws InvalidInput where one that is written is read or written under another name too, and
-  /// where processes would read different files. Collective.
+  /// Registers the files that options name. After it, reads() and writes() add other files of the
+  /// command, before its work. Throws InvalidInput if a file to write is also read or written under
+  /// another option, and if processes would read different files. All processes must call.
   void name_files(const std::deque<Option>& options);
   void reads(std::string_view option, const std::filesystem::path& file);
   void writes(std::string_view option, const std::filesystem::path& file,
               std::string_view partner = "");
-  /// Whether the command may read its own output from now on: what it has written, or is to continue.
+  /// Sets whether the command may read the file of --output, which it has written or continues.
   void may_read_output(bool may) { may_read_output_ = may; }
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
-  /// Draws what --plot asked for; nothing where it was not given.
+  /// Draws the picture of --plot; does nothing if --plot was not given.
   void plot(const Figure& figure);
-  /// The library's writers take these. Throws InvalidInput in one of several tasks, which would all
-  /// write the same file.
+  /// Options for the writers of the library. Throws InvalidInput if this process is one of several
+  /// independent tasks, which would all write the same file.
   WriteOptions write_options() const;
   bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
-  /// The library reports to it: draws the bar where one is wanted, and returns false after Ctrl-C
-  /// of this process.
+  /// Progress callback for the library. It draws the bar if one is wanted, and returns false after
+  /// an interruption of this process.
   Progress progress();
-  /// The same, and Ctrl-C for what reports no progress.
+  /// The progress callback, with a check for interruptions for work that reports no progress.
   Context context();
 
-  /// A warning for the person at the terminal, on stderr; --quiet leaves out both, and errors only
-  /// remain. The same warning is given once, and is among the `warnings` of a JSON answer.
+  /// inform() and warn() print on standard error unless --quiet was given. Each warning is printed
+  /// once, and is added to the key `warnings` of a JSON answer.
   void inform(std::string_view text);
   void warn(std::string_view text);
   void warn(const std::vector<std::string>& lines);
-  /// warn() where there is a doubt.
+  /// Calls warn() if there is a warning.
   void warn_if(const std::optional<std::string>& text);
 
-  /// The command's answer: the object with --json, the text without.
+  /// Prints the answer of the command: with --json `object`, otherwise `text`.
   void answer(const Json& object, const std::string& text);
-  /// Prints the object itself laid out as text, with with_processes().
+  /// Prints an object completed by with_processes(), as JSON or laid out as text.
   void answer(const Json& object);
-  /// An answer of salebra-mpi has the numbers of processes and threads too.
+  /// Adds the numbers of processes and threads to an answer of salebra-mpi.
   Json with_processes(Json object) const;
 
  private:
@@ -118,19 +120,19 @@ class Session {
   NamedFiles files_;
   bool may_read_output_ = false;
   std::set<std::string> warned_;
-  std::vector<std::string> warnings_;  ///< as they were said
+  std::vector<std::string> warnings_;  ///< all warnings that were printed
 };
 
-/// Surfaces are missing in a study that was to be merged: the program exits with 3.
+/// Thrown by --merge if surfaces of the study are missing; the program then exits with status 3.
 class Incomplete : public Error {
  public:
   using Error::Error;
 };
 
-/// True once SIGINT, SIGTERM, SIGUSR1 or SIGHUP has come.
+/// True after the process has received SIGINT, SIGTERM, SIGUSR1 or SIGHUP.
 bool interrupted();
-/// From now on the first of these only sets interrupted(), a second one ends the process. SIGHUP
-/// stays ignored where nohup has it so.
+/// Installs handlers for these four signals. The first signal only sets interrupted(), a second one
+/// ends the process. SIGHUP stays ignored if nohup set it so.
 void catch_interrupts();
 
 }  // namespace salebra::cli

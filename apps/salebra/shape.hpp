@@ -5,8 +5,8 @@
 
 namespace salebra {
 
-/// Shapes with a formula: of generated surfaces, of axisymmetric indenters, of bodies that
-/// oscillate. Each offers those that it knows.
+/// Shapes with a formula. Generated surfaces, axisymmetric indenters and oscillating bodies each
+/// support some of them.
 enum class Shape {
   sphere,
   paraboloid,

@@ -15,7 +15,7 @@
 namespace salebra::cli {
 namespace {
 
-/// The numbers that follow a shape's name, in the order of its maker's arguments.
+/// The options of a shape in the order of the arguments of its generator, and the generator.
 struct MadeShape {
   std::vector<std::string> options;
   std::function<Surface(const Grid2D&, const std::vector<double>&, const PlanePoint&)> make;
@@ -27,7 +27,8 @@ Index whole(double value, const char* option) {
   return static_cast<Index>(value);
 }
 
-/// Axes stand at the point; repeated shapes are moved by it.
+/// Options and generator of a shape. A single shape has its axis at the point `center`; the pattern
+/// of a repeated shape is shifted by it.
 MadeShape maker_of(Shape shape) {
   using Values = std::vector<double>;
   if (shape == Shape::sphere)
@@ -76,7 +77,7 @@ MadeShape maker_of(Shape shape) {
 }  // namespace
 
 void ShapeOptions::add_to(Command& app) {
-  const Heading under(app, "Shape, in place of a spectrum");
+  const Heading under(app, "Shape, instead of a spectrum");
   std::vector<std::string> words;
   for (const auto& [value, word] : EnumNames<Shape>::values)
     if (value != Shape::power) words.push_back(option_word(value));
@@ -84,25 +85,28 @@ void ShapeOptions::add_to(Command& app) {
   const auto length = [&](const char* name, std::optional<double>& value, const char* help) {
     add_quantity(app, name, value, Dimension::length, help);
   };
-  length("--radius", radius, "sphere, paraboloid, ridge, cylinder, rounded-cylinder");
-  length("--radius-x", radius_x, "elliptic-paraboloid: of curvature along x");
-  length("--radius-y", radius_y, "elliptic-paraboloid: of curvature along y");
+  length("--radius", radius,
+         "sphere, paraboloid, ridge: radius of curvature; cylinder, rounded-cylinder: radius of "
+         "the flat face");
+  length("--radius-x", radius_x, "elliptic-paraboloid: radius of curvature along x");
+  length("--radius-y", radius_y, "elliptic-paraboloid: radius of curvature along y");
   length("--semi-x", semi_x, "ellipsoid: semi-axis along x");
   length("--semi-y", semi_y, "ellipsoid: semi-axis along y");
   length("--semi-z", semi_z, "ellipsoid: semi-axis out of the surface");
-  length("--depth", depth, "cylinder: from its face to the ground");
-  length("--edge-radius", edge_radius, "rounded-cylinder: of curvature outside the flat face");
-  length("--amplitude", amplitude, "sinusoid");
-  length("--center-x", center_x, "of the axis, or shift of pyramids and sinusoid");
-  length("--center-y", center_y, "as --center-x");
+  length("--depth", depth, "cylinder: depth from its face to the ground");
+  length("--edge-radius", edge_radius,
+         "rounded-cylinder: radius of curvature outside the flat face");
+  length("--amplitude", amplitude, "sinusoid: amplitude");
+  length("--center-x", center_x, "x of the axis; pyramids, sinusoid: shift along x");
+  length("--center-y", center_y, "the same along y");
   add_quantity(app, "--angle", angle, Dimension::angle,
-               "cone, wedge, pyramids: of the flank to the plane");
+               "cone, wedge, pyramids: angle between the flank and the plane");
   add_quantity(app, "--count-x", count_x, Dimension::dimensionless,
-               "pyramids, sinusoid: how many along x");
+               "pyramids, sinusoid: number along x");
   add_quantity(app, "--count-y", count_y, Dimension::dimensionless, "the same along y");
   add_choice(app, "--center", center, {"off-grid", "middle"},
-             "default off-grid: (0.31, 0.17) of a cell off the middle, which makes the contact "
-             "area grow smoothly");
+             "where the axis is; default off-grid: (0.31, 0.17) of a cell off the middle, which "
+             "makes the contact area grow smoothly");
 }
 
 Surface ShapeOptions::surface(const Grid2D& grid) const {

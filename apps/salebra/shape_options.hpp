@@ -9,7 +9,7 @@
 
 namespace salebra::cli {
 
-/// An analytic shape on a grid.
+/// Options of an analytic shape on a grid.
 struct ShapeOptions {
   std::string shape, center = "off-grid";
   std::optional<double> radius, radius_x, radius_y, semi_x, semi_y, semi_z, angle, depth,
@@ -17,8 +17,8 @@ struct ShapeOptions {
 
   void add_to(Command& app);
   bool given() const { return !shape.empty(); }
-  /// Throws InvalidInput that names an option that is missing, or one that the shape has no use
-  /// for.
+  /// The surface of the shape. Throws InvalidInput if an option of the shape is missing, or an
+  /// option was given that the shape does not use.
   Surface surface(const Grid2D& grid) const;
 };
 

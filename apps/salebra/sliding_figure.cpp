@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of sliding: friction over velocity and amplitude, regimes, the path of a slider.
+// Figures of `salebra sliding`: friction over velocity and amplitude, regimes, the motion of a
+// slider.
 #include "sliding_figure.hpp"
 
 #include <algorithm>

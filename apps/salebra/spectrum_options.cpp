@@ -15,7 +15,7 @@
 namespace salebra::cli {
 namespace {
 
-/// Options that a kind of spectrum has no use for must not be given.
+/// Throws InvalidInput if an option was given that this kind of spectrum does not use.
 void require_absent(const std::optional<double>& value, std::string_view option,
                     const std::string& kind) {
   require_that(!value, option, "given, but " + kind + " has none; leave it out");
@@ -35,40 +35,41 @@ void SpectrumOptions::add_to(Command& app) {
   add_quantity(app, "--short-cutoff", short_cutoff, Dimension::length,
                "shortest wavelength, at least two cells");
   add_quantity(app, "--rms-height", rms_height, Dimension::length,
-               "of the spectrum; or --rms-slope");
+               "rms height of the spectrum; or give --rms-slope");
   add_quantity(app, "--rms-slope", rms_slope, Dimension::dimensionless,
-               "of the spectrum, sqrt(<|grad h|^2>)");
+               "rms slope of the spectrum, sqrt(<|grad h|^2>)");
   add_choice(app, "--correlation", correlation, {"gaussian", "exponential"},
-             "in place of --hurst, with --correlation-length and --rms-height");
+             "correlation function instead of --hurst, with --correlation-length and --rms-height");
   add_quantity(app, "--correlation-length", correlation_length, Dimension::length,
-               "where the correlation has fallen by e");
+               "distance over which the correlation falls to 1/e");
   app.add_option("--psd-table", table,
-                 "in place of --hurst: file with two columns, wave number in rad/m and density; "
+                 "file with two columns, wave number in rad/m and density, instead of --hurst; "
                  "--rms-height scales it")
       ->file(FileUse::input);
   add_choice(app, "--convention", convention, {"salebra", "surface-topography", "gwyddion"},
-             "of --psd-table; default salebra, rms_height^2 = integral of C d^2q");
+             "convention of --psd-table; default salebra, rms_height^2 = integral of C d^2q");
   add_quantity(app, "--stretch-along", stretch_along, Dimension::dimensionless,
                "factor on the correlation length along the lay; default 1");
   add_quantity(app, "--stretch-across", stretch_across, Dimension::dimensionless,
                "the same across the lay; default 1");
   add_quantity(app, "--lay-angle", lay_angle, Dimension::angle,
-               "from the x axis to the lay; default 0");
+               "angle from the x axis to the lay; default 0");
 }
 
 SelfAffineParameters SpectrumOptions::self_affine(double cell) const {
-  return {.hurst = required(hurst, "--hurst",
-                            "a spectrum is needed; give it, --correlation, --psd-table or --shape"),
+  return {.hurst =
+              required(hurst, "--hurst",
+                       "a spectrum is needed; give --hurst, --correlation, --psd-table or --shape"),
           .long_cutoff = long_cutoff || rolloff ? long_cutoff : cell,
           .rolloff = rolloff,
-          .short_cutoff =
-              required(short_cutoff, "--short-cutoff", "a self-affine spectrum needs its end"),
+          .short_cutoff = required(short_cutoff, "--short-cutoff",
+                                   "a self-affine spectrum needs a shortest wavelength"),
           .rms_height = rms_height,
           .rms_slope = rms_slope};
 }
 
 std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::tabulated() const {
-  // A radial spectrum of Gwyddion is one of a line.
+  // The radial spectrum of Gwyddion is that of a profile, in m³.
   const Dimension density =
       convention == "gwyddion" ? Dimension::length_cubed : Dimension::length_to_the_fourth;
   auto columns = read_number_table(table, spectrum_columns(density)).columns;
@@ -129,9 +130,9 @@ std::shared_ptr<const Spectrum> SpectrumOptions::spectrum(double cell) const {
 
 SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum(double cell) const {
   require_that(table.empty() && correlation.empty(), "--profile",
-               "given with a spectrum of surfaces; profiles are self-affine, give --hurst");
+               "given with a spectrum of surfaces, but profiles are self-affine; give --hurst");
   require_that(!stretch_along && !stretch_across && !lay_angle, "--profile",
-               "given with a lay; a profile has none");
+               "given with a lay, which a profile does not have");
   return SelfAffineProfileSpectrum(self_affine(cell));
 }
 

@@ -12,8 +12,8 @@
 
 namespace salebra::cli {
 
-/// The power spectral density of a random surface: self-affine, of a correlation function, or from
-/// a table; stretched or not.
+/// Options for the power spectral density of a random surface: self-affine, from a correlation
+/// function or from a table; isotropic or stretched along a direction.
 struct SpectrumOptions {
   std::optional<double> hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope,
       correlation_length, stretch_along, stretch_across, lay_angle;
@@ -21,11 +21,12 @@ struct SpectrumOptions {
 
   void add_to(Command& app);
   bool given() const { return hurst || !table.empty() || !correlation.empty(); }
-  /// cell: the longest period of the surface, m; no wave of a self-affine one is longer, unless a
-  /// limit is given.
+  /// cell: length of the period of the surface, m. It is the longest wavelength of a self-affine
+  /// spectrum if no long cut-off is given.
   std::shared_ptr<const Spectrum> spectrum(double cell) const;
   SelfAffineProfileSpectrum profile_spectrum(double cell) const;
-  /// Peklenik's number and the lay, where the surface is stretched; else null.
+  /// JSON of the anisotropy of a stretched surface (Peklenik's number and direction of the lay);
+  /// null for an isotropic one.
   Json anisotropy() const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Common part of `study` and `compare`: options, run, files, text of the ensemble.
+// Common part of `salebra study` and `salebra compare`: options, run, files, text about the
+// ensemble.
 #include "study_command.hpp"
 
 #include <fmt/format.h>
@@ -35,11 +36,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Rate and remaining time of a study, judged by what was computed in this run.
+/// Rate and remaining time of a study, estimated from the surfaces computed in this run.
 class Pace {
  public:
   void restored() { ++restored_; }
-  /// ", 4.1/min, 2 min 05 s left"; empty while there is nothing to judge by.
+  /// Text such as ", 4.1/min, 2 min 05 s left"; empty while too few surfaces are finished.
+  /// fraction: of the whole study that is done.
   std::string at(double fraction, std::size_t finished, std::size_t wanted) {
     const double begun = double(restored_) / double(wanted);
     const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
@@ -59,77 +61,79 @@ class Pace {
 
 void StudyArguments::add_to(Command& command, bool over_processes) {
   command
-      .add_option("CONFIG", configuration,
-                  "study file (TOML); options take the place of what it says")
+      .add_option(
+          "CONFIG", configuration,
+          "study file (TOML); options override its entries, a material option all of [material]")
       ->file(FileUse::input);
   surface.add_to(command, false, "--surface");
   command
       .add_option("--twin", twin,
-                  "file of `twin`: surfaces of the study file's grid and seeds with spectra that "
-                  "the scans allow")
+                  "result of twin: generate surfaces with its spectra, on the grid and with the "
+                  "seeds of the study file")
       ->file(FileUse::input);
   material.add_to(command);
   add_conduction(command, conduction);
   motion.add_to(command);
   assumptions.add_to(command);
   add_values(command, "--pressures", pressures, Dimension::pressure,
-             "loads of the boundary elements, such as 1MPa:1GPa:16");
+             "nominal pressures at which contacts are solved, such as 1MPa:1GPa:16");
   add_quantity(command, "--target-precision", precision, Dimension::dimensionless,
-               "stop where the means of l and of the area slope are known so well, such as 2%");
+               "stop as soon as the means of l and of the area slope are this precise, such as 2%");
   add_quantity(command, "--relative-error", relative_error, Dimension::dimensionless,
-               "of each damping constant, such as 5%: halves the cells until it is met");
+               "numerical error allowed for each damping constant, such as 5%; cells are halved "
+               "until it is met");
   command.add_option(
       "--intervals", intervals,
-      "intervals between contacts inside the oscillation, 4, 8, 16 or 32, half as "
-      "many on finer grids and for each of several surfaces; default 4; 0: none, the "
-      "loss from the curve between loads, faster and without an error");
-  add_choice<SeamCheck>(
-      command, "--seam-error", seam_error,
-      "add the error of the seam of a scan that is continued: from its heights with a "
-      "window, or from the scan by itself on a half-space");
+      "intervals between the contacts that are solved inside the oscillation: 4, 8, 16 or 32, half "
+      "as many on finer grids and for each of several surfaces; default 4. 0 solves none and takes "
+      "the loss from the curve between loads: faster, but the error is not known");
+  add_choice<SeamCheck>(command, "--seam-error", seam_error,
+                        "add the error of continuing a scan periodically, estimated from its "
+                        "heights with a window or from the scan alone on a half-space");
   command.add_flag("--no-stick", no_stick,
-                   "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
-                   "= 0 without coupling");
+                   "take K_t = (G*/E*)K instead of solving each contact in full stick: faster, and "
+                   "exact at nu = 0 without coupling");
   command.add_flag("--flow-factors", flow_factors,
-                   "also those of the gap of each contact of the boundary elements");
+                   "also compute the flow factors of the gap of each contact");
   dry_run.add_to(command, over_processes);
-  if (over_processes)
-    add_groups(command, groups,
-               "holds one surface and takes the next ones of the ensemble; default 1");
-  add_quantity(command, "--shard-seconds", shard_seconds, Dimension::time,
-               "with --dry-run: propose a number of shards that take no longer, such as 1h");
-  command.add_flag("--resume", resume,
-                   "continue an interrupted run from what it left next to the output file");
+  if (over_processes) add_groups(command, groups, "holds one surface at a time; default 1");
+  add_quantity(
+      command, "--shard-seconds", shard_seconds, Dimension::time,
+      "with --dry-run: propose a number of shards that each take no longer than this, such as 1h");
+  command.add_flag(
+      "--resume", resume,
+      "continue an interrupted run from the surfaces that it kept next to the output file");
   command
       .add_option_function(
           "--shard", [this](const std::string& text) { shard = parse_shard(text); },
-          "compute the K-th of N shares of the surfaces, or those that no other process has "
-          "taken, and keep them next to the output file for --merge")
+          "compute the K-th of N parts of the surfaces, or with any those that no other process "
+          "has taken, and keep them next to the output file for --merge")
       ->type_name("K/N or any");
   command.add_flag("--merge", merge,
-                   "result from the surfaces of all shards; computes nothing, and exits with 3 "
-                   "where some are missing");
-  command.add_flag("--no-report", no_report, "no page (.html) next to the output file");
+                   "make the result from the surfaces of all shards; computes none, and exits with "
+                   "3 if some are missing");
+  command.add_flag("--no-report", no_report,
+                   "write no report page (.html) next to the output file");
 }
 
 namespace {
 
-/// The page that lies beside the results of a study, made by the first process.
+/// The report page next to the results of a study; only the first process makes it.
 class StudyReport {
  public:
-  /// Throws where the page cannot be put in its place, before any work. Collective. Nothing is
-  /// planned where there is no output, where the user wants no page, or where this build cannot
-  /// make one, which write() then says.
+  /// Plans the page. Throws before any work if it could not be written. No page is planned if there
+  /// is no --output, if the user wants none, or if this build cannot make one; in the last case
+  /// write() says so. All processes must call.
   StudyReport(const StudyArguments& arguments, Session& session);
-  /// Writes what was planned, from the results file; its path, if there is one. Of several
-  /// processes the first does so. The results are safe by now, and their answer comes first: a page
-  /// that is in the way is a warning, and one that could not be written is thrown by
-  /// require_written().
+  /// Writes the planned page from the file of results and returns its path. Returns nothing if no
+  /// page is planned, and in all processes but the first. The results are already saved, so an
+  /// error does not end the command before its answer: an existing page only gives a warning, and
+  /// require_written() throws any other error.
   std::optional<std::string> write();
-  /// Throws IoError where the system refused the page. Collective.
+  /// Throws the IoError of a page that could not be written. All processes must call.
   void require_written() const;
-  /// Makes the page where none was made of these results yet, as of a study that was killed before
-  /// it; otherwise returns the path alone.
+  /// Makes the page if it is missing or older than the results, for example because the study was
+  /// killed before it made the page. Returns its path.
   std::optional<std::string> complete();
 
  private:
@@ -148,8 +152,9 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
     if (!session.communicator().is_root()) return;
     page_ = session.output().replace_extension(".html");
     require(page_ != session.output(), "--output", page_.string(),
-            "is a report's name; name the results .h5, or add --no-report");
-    // A resumed study that has its result is only tidied up after.
+            "is the name of the report page; name the results .h5, or add --no-report");
+    // If a study is resumed that already has its results, only files that a killed run left are
+    // removed.
     if ((arguments.resume || arguments.merge) && std::filesystem::exists(session.output())) return;
     require_report(page_, session.write_options());
   });
@@ -159,8 +164,8 @@ std::optional<std::string> StudyReport::write() {
   session_.may_read_output(true);
   if (lacks_assets_)
     session_.inform(
-        "no report was written: this build carries no plotly.js (scripts/report-assets fetches "
-        "it)");
+        "no report was written: this build does not contain plotly.js (scripts/report-assets "
+        "fetches it)");
   if (page_.empty()) return {};
   try {
     try {
@@ -193,7 +198,7 @@ std::optional<std::string> StudyReport::complete() {
   return write();
 }
 
-/// Whether a file is one of heights, apart from its size.
+/// Whether a file contains a surface, with or without its lateral size.
 bool is_surface(const std::string& file) {
   ReadOptions options;
   options.size_x = options.size_y = 1;
@@ -206,7 +211,8 @@ bool is_surface(const std::string& file) {
   }
 }
 
-/// Reads the study of the file, or of the surface alone, before the other options apply.
+/// The study in the study file, or the default study of a measured surface, before further options
+/// are applied.
 StudyConfiguration study_of(const StudyArguments& arguments) {
   const std::string& file = arguments.configuration;
   const SurfaceOptions& surface = arguments.surface;
@@ -218,13 +224,13 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
                   : detail::read_study_of_twin(file, arguments.twin);
     } catch (const InvalidInput&) {
       require(!is_surface(file), "CONFIG", file,
-              "is a surface, no study file; give it as --surface " + file);
+              "is a surface, not a study file; give it as --surface " + file);
       throw;
     }
   } else {
     if (!surface.given())
       throw InvalidInput("CONFIG",
-                         "none; give a study file, or --surface with material and motion");
+                         "not given; give a study file, or --surface with material and motion");
     std::vector<std::string> missing = arguments.material.missing(true);
     for (const std::string& option : arguments.motion.missing()) missing.push_back(option);
     require_options(missing, "a study without a file");
@@ -235,8 +241,9 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
   if (!arguments.twin.empty()) {
     require(std::holds_alternative<GeneratedSurfaces>(study.surfaces) && !surface.given(), "--twin",
             arguments.twin, "needs a study file whose [surface] has points, size_x and seeds");
-    require(study.ensemble.empty(), "--twin", arguments.twin,
-            "is what it is; the [ensemble] of the study file has nothing to vary");
+    require(
+        study.ensemble.empty(), "--twin", arguments.twin,
+        "fixes the spectrum; remove [ensemble] from the study file, because nothing can be varied");
   }
   if (!surface.given()) return study;
   return with_surface(std::move(study), surface.measured());
@@ -251,12 +258,12 @@ StudyConfiguration StudyArguments::study() const {
   if (!from_file || motion.given()) {
     const auto motions = (from_file ? motion.completed_from(study.motion) : motion).motions();
     require(motions.size() == 1, motion.varied().first, motions.size(),
-            "values; a study has one motion");
+            "values given; a study has one motion");
     study.motion = motions.front();
   }
   if (!pressures.empty()) {
     require(pressures.size() >= 4, "--pressures", pressures.size(),
-            "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
+            "values given; a curve needs at least 4. For one load: salebra damping --surface");
     study.pressures = pressures;
     study.relative_pressures = false;
     study.pressures_below_hardness = false;
@@ -289,15 +296,16 @@ StudyConfiguration StudyArguments::study() const {
                                         {!seam_error.empty(), "--seam-error"}})
       require_that(!given, option, std::string(no_damping_with_adhesion));
   const ContactParameters parameters = assumptions.parameters({});
-  for (double ContactParameters::*parameter : {&ContactParameters::friction_coefficient, &ContactParameters::hardness,
-                                     &ContactParameters::density, &ContactParameters::excursion})
+  for (double ContactParameters::*parameter :
+       {&ContactParameters::friction_coefficient, &ContactParameters::hardness,
+        &ContactParameters::density, &ContactParameters::excursion})
     if (!std::isnan(parameters.*parameter)) study.known.*parameter = parameters.*parameter;
   return study;
 }
 
 namespace {
 
-/// Where a run left its results and their page.
+/// The files that a run has written: the results and their report page.
 struct StudyFiles {
   std::optional<std::string> results = {}, report = {};
 
@@ -316,7 +324,7 @@ std::filesystem::path parts_folder(const Session& session) {
   return session.output().string() + ".parts";
 }
 
-/// What a run reports while it goes.
+/// Reports the progress of a run: a bar, and lines about finished surfaces.
 class Reporter {
  public:
   explicit Reporter(Session& session, Groups groups = {})
@@ -360,7 +368,7 @@ class Reporter {
   RealisationReport last_;
 };
 
-/// "3,7-9", as schedulers take it.
+/// Formats numbers of shards as "3,7-9", the notation of job schedulers.
 std::string ranges_of(const std::set<std::size_t>& numbers) {
   std::string text;
   for (auto first = numbers.begin(); first != numbers.end();) {
@@ -373,8 +381,8 @@ std::string ranges_of(const std::set<std::size_t>& numbers) {
   return text;
 }
 
-/// What to run for the surfaces that are missing. Shards have the count that most of the surfaces
-/// at hand were computed with.
+/// Text that advises which shards to run again to compute the missing surfaces. The number of
+/// shards is assumed to be that with which most of the present surfaces were computed.
 std::string shards_to_run(const std::vector<std::size_t>& missing,
                           const std::vector<PartOrigin>& origins) {
   std::map<std::size_t, std::size_t> uses;
@@ -390,8 +398,8 @@ std::string shards_to_run(const std::vector<std::size_t>& missing,
                      ranges_of(numbers), count);
 }
 
-/// "3 surfaces there are of other settings or seeds, 2 of version 0.0.9"; empty where there are
-/// none.
+/// Says which kept surfaces do not belong to the study, as in "3 surfaces there are of other
+/// settings or seeds, 2 of version 0.0.9"; empty if there are none.
 std::string strangers(const std::vector<PartOrigin>& others) {
   std::map<std::string, std::size_t> kinds;
   for (const PartOrigin& origin : others)
@@ -406,7 +414,7 @@ std::string strangers(const std::vector<PartOrigin>& others) {
   return text;
 }
 
-/// Where each arithmetic() computed: hosts and number of surfaces.
+/// Hosts that computed kept surfaces, and number of these surfaces, for one arithmetic().
 struct Machines {
   std::set<std::string> hosts;
   std::size_t surfaces = 0;
@@ -424,23 +432,24 @@ std::map<std::string, Machines> machines_of(const std::vector<PartOrigin>& origi
 void warn_of_parts(const StudyParts& parts, const std::vector<PartOrigin>& others, bool merge,
                    Session& session) {
   if (parts.damaged() > 0)
-    session.warn(fmt::format("{} damaged files of {} were thrown away{}", parts.damaged(),
+    session.warn(fmt::format("{} damaged files of {} were deleted{}", parts.damaged(),
                              parts.folder().string(),
-                             merge ? "" : ", their surfaces computed again"));
+                             merge ? "" : "; their surfaces are computed again"));
   if (!merge) return;
   if (const auto machines = machines_of(parts.origins()); machines.size() > 1) {
     std::string text;
     for (const auto& [arithmetic, found] : machines)
       text += fmt::format("{}{} by {} on {}", text.empty() ? "" : "; ", found.surfaces, arithmetic,
                           fmt::join(found.hosts, ", "));
-    session.warn("the surfaces come from machines whose last digits differ: " + text);
+    session.warn("the surfaces were computed on machines that differ in the last digits: " + text);
   }
   if (!others.empty())
-    session.warn(fmt::format("{}: {}; left out, and left there", parts.folder().string(),
+    session.warn(fmt::format("{}: {}; these are not used and not deleted", parts.folder().string(),
                              strangers(others)));
 }
 
-/// The session's provenance; of merged surfaces, the arithmetic is theirs.
+/// The provenance of the session. For merged surfaces it contains the arithmetic by which they were
+/// computed.
 Provenance provenance_of(const StudyParts& parts, const Session& session) {
   Provenance provenance = session.provenance();
   for (const auto& [arithmetic, found] : machines_of(parts.origins()))
@@ -448,7 +457,8 @@ Provenance provenance_of(const StudyParts& parts, const Session& session) {
   return provenance;
 }
 
-/// Whether the output holds the results of all surfaces already, so that kept ones can go.
+/// Whether --output already contains the results of all surfaces, so that the kept surfaces can be
+/// removed.
 bool is_complete(const StudyConfiguration& configuration, const std::filesystem::path& folder,
                  Session& session) {
   const Communicator& communicator = session.communicator();
@@ -461,7 +471,7 @@ bool is_complete(const StudyConfiguration& configuration, const std::filesystem:
   return complete;
 }
 
-/// Throws Incomplete where surfaces are missing.
+/// Throws Incomplete if surfaces are missing, with advice how to compute them.
 void require_all(const StudyParts& parts, const std::vector<std::size_t>& missing,
                  const std::vector<PartOrigin>& others, std::size_t surfaces) {
   if (missing.empty()) return;
@@ -473,7 +483,8 @@ void require_all(const StudyParts& parts, const std::vector<std::size_t>& missin
       shards_to_run(missing, parts.origins()), other.empty() ? "" : " (" + other + ")"));
 }
 
-/// Throws Interrupted where not all surfaces were computed, and says what is kept of them.
+/// Throws Interrupted if not all surfaces were computed. The message says which surfaces are kept
+/// and how to continue.
 void require_finished(const std::vector<StudyResult>& results,
                       const StudyConfiguration& configuration, const StudyParts* parts,
                       const Communicator& communicator) {
@@ -481,18 +492,18 @@ void require_finished(const std::vector<StudyResult>& results,
                            std::ranges::any_of(results, &StudyResult::interrupted);
   collectively(communicator, [&] {
     if (interrupted && parts && parts->count() > 0)
-      throw Interrupted(fmt::format(
-          "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
-          "and --resume",
-          parts->count(), parts->folder().string()));
+      throw Interrupted(
+          fmt::format("study: interrupted; {} finished surfaces are kept in {}; continue with the "
+                      "same command and --resume",
+                      parts->count(), parts->folder().string()));
   });
   if (std::ranges::all_of(results,
                           [](const StudyResult& result) { return result.realisations.empty(); }))
     throw Interrupted("study: interrupted before the first surface was finished");
 }
 
-/// Throws NotConverged where a relative error was requested and is not met: the loads, with what
-/// was reached.
+/// Throws NotConverged if the requested relative error was not reached. The message lists the loads
+/// concerned, with the errors that were reached.
 void require_relative_error(const std::vector<StudyResult>& results) {
   std::string missed;
   double wanted = 0;
@@ -501,7 +512,8 @@ void require_relative_error(const std::vector<StudyResult>& results) {
     const auto stated = result.stated("damping_constant");
     const auto means = result.damping(&DampingPoint::damping_constant);
     for (std::size_t k = 0; k < stated.size(); ++k) {
-      // Neither value nor error: the contact did not converge, or the oscillation leaves its range.
+      // A load without value and error is skipped: its contact did not converge, or the oscillation
+      // leaves the range of the contacts.
       if (std::isnan(stated[k].error)) continue;
       const double reached = stated[k].error / std::abs(means[k].mean);
       if (reached <= wanted) continue;
@@ -513,15 +525,16 @@ void require_relative_error(const std::vector<StudyResult>& results) {
   }
   if (!missed.empty())
     throw NotConverged(fmt::format(
-        "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size; no "
-        "result is given: ask for less, leave out these loads, or measure finer",
+        "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size, so there is "
+        "no result; allow a larger error, leave out these loads, or use a finer surface",
         100 * wanted, missed, SurfaceDampingOptions().max_refined));
 }
 
-/// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it
-/// goes, and writes the result there. Without an output nothing is kept. Where a resumed study has
-/// its result already, tidies up after it, makes a page that is missing, answers so and returns
-/// nothing. Otherwise returns at least one finished surface.
+/// Runs the ensembles with progress, keeps finished surfaces next to the file of --output, and
+/// writes the results to this file. Without --output nothing is kept. If a resumed study already
+/// has its results, it removes files that a killed run left, makes a missing page, answers with the
+/// names of the files and returns nothing. Otherwise returns at least one result, with at least one
+/// finished surface.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session) {
@@ -585,16 +598,17 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   return results;
 }
 
-/// What ends a command before its results: --dry-run and --shard. False where there is neither.
+/// Runs --dry-run or --shard, after which the command ends, and returns true. Returns false if
+/// neither was given.
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session) {
   require_that(arguments.dry_run.dry_run || !arguments.shard_seconds, "--shard-seconds",
-               "is for --dry-run only; add it");
+               "needs --dry-run; add it");
   if (arguments.dry_run.dry_run) {
     if (std::holds_alternative<MeasuredSurface>(configuration.surfaces))
       session.require_one_process("--dry-run of a file");
     const SurfaceWork work = planned(arguments.dry_run, {}, session);
-    answer_dry_run(configuration, {work.communicator, work.nodes, std::max(1, arguments.groups)},
+    answer_dry_run(configuration, {work.ranks, work.nodes, std::max(1, arguments.groups)},
                    arguments.shard_seconds, session);
     return true;
   }
@@ -605,7 +619,7 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
   require_that(session.has_output(), "--shard",
                "needs the --output of the study; its surfaces are kept next to it");
   require_that(!session.has_plot(), "--plot",
-               "cannot be combined with --shard, which has no result; draw with --merge");
+               "cannot be combined with --shard, which makes no result; use it with --merge");
   const std::string folder = parts_folder(session).string();
   const auto answer = [&](const ShardOutcome& outcome, const std::string& text) {
     session.answer(Json{{"shard", to_text(shard)},
@@ -619,7 +633,7 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
   };
   if (!session.overwrites() && is_result_of(session.output(), configuration))
     return answer({}, session.output().string() + " is complete already");
-  parameter_combinations(configuration);  // refuses before there is a folder
+  parameter_combinations(configuration);  // throws for an invalid study before a folder is made
   const auto parts = StudyParts::of_shard(folder, shard);
   Reporter reporter(session);
   const ShardOutcome outcome = run_shard(configuration, shard, reporter.run(parts.get()));
@@ -629,15 +643,14 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
         "study: interrupted; {} finished surfaces of this shard are kept in {}; continue with "
         "the same command",
         outcome.present + outcome.computed, folder));
-  return answer(
-      outcome,
-      fmt::format("{} surfaces, {} computed now{}, kept in {}; --merge in place of --shard makes "
-                  "the result of all",
-                  outcome.wanted, outcome.computed,
-                  outcome.elsewhere > 0
-                      ? fmt::format(", {} being computed by other processes", outcome.elsewhere)
-                      : "",
-                  folder));
+  return answer(outcome, fmt::format("{} surfaces, {} computed now{}, kept in {}; --merge instead "
+                                     "of --shard makes the result of all",
+                                     outcome.wanted, outcome.computed,
+                                     outcome.elsewhere > 0
+                                         ? fmt::format(", {} being computed by other processes",
+                                                       outcome.elsewhere)
+                                         : "",
+                                     folder));
 }
 
 }  // namespace
@@ -675,7 +688,7 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
   session.answer(session.with_processes(std::move(answer)), text);
   report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))
-    throw Interrupted(command + ": interrupted; the surfaces that were finished are in the answer");
+    throw Interrupted(command + ": interrupted; the output covers the finished surfaces");
 }
 
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits) {
@@ -707,8 +720,8 @@ std::string heading(const StudyResult& result) {
 
 std::string in_words(const LawDescription& law, const std::string& what) {
   return fmt::format(
-      "F ~ exp(-gap/l) is a {} description of {}: F/l^2 is off F'' by {:+.0f} % (smallest gap) and "
-      "{:+.0f} % (largest gap) at the ends of the window.{}",
+      "F ~ exp(-gap/l) is a {} description of {}: F/l^2 differs from F'' by {:+.0f} % (smallest "
+      "gap) and {:+.0f} % (largest gap) at the ends of the window.{}",
       law.fair ? "fair" : "poor", what, 100 * law.law_off_at_min_gap, 100 * law.law_off_at_max_gap,
       law.fair ? "" : " Do not use Eq. (16) here.");
 }
@@ -722,18 +735,26 @@ std::string law_verdict(const StudyResult& result) {
   const EnsembleMean bend = result.fitted("law_bend");
   const bool sample = !std::isnan(bend.low);
   std::string text = fmt::format(
-      "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (smallest gap) "
-      "to {:.2f} h_rms (largest gap), a change of {:+.0f} %{}.\n  {}\n",
+      "  Over the fitted window the local l of boundary elements changes from {:.2f} h_rms "
+      "(smallest gap) to {:.2f} h_rms (largest gap), by {:+.0f} %{}.\n  {}\n",
       over_rms_height("decay_length_at_min_gap"), over_rms_height("decay_length_at_max_gap"),
       100 * bend.mean,
       sample ? fmt::format(" ({:+.0f} to {:+.0f} % at 95 %)", 100 * bend.low, 100 * bend.high) : "",
       in_words(*law, sample ? "these surfaces" : "this surface"));
-  return text +
-         fmt::format(
-             "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; one with all loads "
-             "weighted alike, not by the gap that each stands for, {:.2f} h_rms.\n",
-             over_rms_height("decay_length_min"), over_rms_height("decay_length_max"),
-             over_rms_height("decay_length_equal_weights"));
+  return text + fmt::format(
+                    "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; a fit with "
+                    "equal weights, not weights by gap, gives {:.2f} h_rms.\n",
+                    over_rms_height("decay_length_min"), over_rms_height("decay_length_max"),
+                    over_rms_height("decay_length_equal_weights"));
+}
+
+Json damping_columns(const StudyResult& result, ContactModel model) {
+  Json columns =
+      columns_json<DampingPoint>([&](const auto& number) { return result.damping(number, model); });
+  for (const char* name :
+       {"work_per_cycle_error", "damping_constant_error", "damping_constant_without_slip_error"})
+    if (columns.contains(name)) columns[name] = to_json(result.damping(name, model));
+  return columns;
 }
 
 std::string ensemble_warnings(const StudyResult& result) {
@@ -756,7 +777,8 @@ std::string ensemble_warnings(const StudyResult& result) {
   if (result.precision_reached)
     text += fmt::format("{} surfaces were enough for a precision of {:.2g} %.\n",
                         result.realisations.size(), 100 * result.configuration.target_precision);
-  for (const EnsembleWarning& found : result.ensemble_warnings) text += "Warning: " + found.text + ".\n";
+  for (const EnsembleWarning& found : result.ensemble_warnings)
+    text += "Warning: " + found.text + ".\n";
   return text;
 }
 

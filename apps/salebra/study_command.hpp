@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
 #include "assumption_options.hpp"
+#include "options.hpp"
 #include "results/answer_json.hpp"
 #include "results/describe.hpp"
 #include "session.hpp"
 
-/// What `study` and `compare` have in common.
+/// Common part of `salebra study` and `salebra compare`.
 namespace salebra::cli {
 
 struct StudyArguments {
@@ -36,36 +36,36 @@ struct StudyArguments {
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
-  bool verbose = false;  ///< of study
-  int groups = 0;        ///< of processes; 0: one
+  bool verbose = false;  ///< only an option of `study`
+  int groups = 0;        ///< number of groups of processes; 0: one group
 
-  /// over_processes: those of salebra-mpi may share the work.
+  /// over_processes: whether several processes of salebra-mpi may compute the study.
   void add_to(Command& command, bool over_processes);
-  /// The study file, or what a measured surface needs without one, with the options in place of
-  /// what either says.
+  /// The study in the study file, or the default study of a measured surface, after the options
+  /// have replaced its values.
   StudyConfiguration study() const;
 };
 
-/// For commands that end in run_study(), which looks at the output itself.
+/// How commands check --output that end in run_study(), which checks the file itself.
 inline constexpr OutputCheck study_output = OutputCheck::by_command;
 
-/// What a command says of the ensemble at one point.
+/// The answer for the ensemble at one point of the parameter grid.
 struct PointAnswer {
   Json answer;
   std::string text;
 };
 
-/// Runs, plots and keeps a study, and answers with what answer_point says of each point, or in its
-/// place with what --dry-run and --shard ask for. With --merge nothing is computed: throws
-/// Incomplete where surfaces are missing. What stopped the run before its end throws Interrupted,
-/// which says how to continue, after the surfaces that were finished have been answered where they
-/// are not kept. Throws NotConverged where a relative error was requested and is not met.
-/// command: its name.
+/// Runs a study, draws its picture, keeps it, and answers with answer_point for each point of the
+/// parameter grid; --dry-run and --shard have their own answers. --merge computes nothing, and
+/// throws Incomplete if surfaces are missing. A run that is stopped throws Interrupted, whose
+/// message says how to continue; if finished surfaces are not kept in files, they are answered
+/// first. Throws NotConverged if a requested relative error is not reached. command: name of the
+/// command.
 void run_study(const std::string& command, const StudyConfiguration& configuration,
                const StudyArguments& arguments, Session& session,
                const std::function<PointAnswer(const StudyResult&)>& answer_point);
 
-/// An object with to_json(means(number)) for every number that the description of T names.
+/// JSON object with a member to_json(means(number)) for every number in the description of T.
 template <Described T, class MeansOf>
 Json columns_json(const MeansOf& means) {
   Json object = Json::object();
@@ -74,24 +74,33 @@ Json columns_json(const MeansOf& means) {
   });
   return object;
 }
-/// 1 of a cycle without hysteresis: its mean is the share of the surfaces.
+/// 1 if the loading cycle of a surface has no hysteresis, otherwise 0. The mean over surfaces is
+/// thus the fraction of surfaces without hysteresis.
 double reversible_share(const AdhesiveCycleNumbers& cycle);
-/// "low … high"; empty where there is no interval.
+/// The limits of an estimate as "low … high"; empty if it has no interval.
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
-/// Size, roughness and moduli of the surfaces.
+/// Text about the size, the roughness and the moduli of the surfaces, printed above the results.
 std::string heading(const StudyResult& result);
-/// One sentence: "F ~ exp(-gap/l) is a poor description of this surface: …". what: "this surface".
+/// The verdict on the exponential law in words, such as "F ~ exp(-gap/l) is a poor description of
+/// this surface: …". what: what the law describes, such as "this surface".
 std::string in_words(const LawDescription& law, const std::string& what);
-/// Whether the exponential law holds, in a sentence.
+/// The verdict on the exponential law for the mean curve of the study.
 std::string law_verdict(const StudyResult& result);
-/// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
+/// Text about the convergence of the mean of l/h_rms with the number of surfaces, and the warnings
+/// of the ensemble.
 std::string ensemble_warnings(const StudyResult& result);
+
+/// Numbers of the losses of a model over the pressures, with means and intervals. The error of a
+/// loss is the stated error of its mean over the surfaces, as in tables, result files and Python,
+/// and not the mean over those surfaces whose error is known.
+Json damping_columns(const StudyResult& result, ContactModel model);
 /// The assumptions of an answer with a list of pressures.
 AssumptionReport assumptions_of(const StudySolution& answer, const StudyResult& result);
-/// γ and work of the motion as described, with the shares of slip.
+/// JSON of the damping constant γ and the loss of the motion as the user described it, with the
+/// fractions of relaxation and slip.
 Json damping_json(const StudySolution& answer);
-/// Adds conductances and flow factors where the study asks for them, how many surfaces there are,
-/// what is wrong with them, their first loading where a hardness is known, and the assumptions.
+/// Adds to the answer the number of surfaces, warnings and assumptions and, if the study has them,
+/// conductances, flow factors and the first loading.
 void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& found);
 
 }  // namespace salebra::cli

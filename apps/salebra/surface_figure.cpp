@@ -23,14 +23,16 @@ PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hur
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
-    // Where a spectrum is cut off, rounding would take the axis down by thirty decades.
+    // Leaves out densities that are only rounding errors beyond a cut-off; they would extend the
+    // axis by thirty decades.
     if (!(radial.psd[k] > 1e-20 * strongest)) continue;
     measured.x.push_back(radial.wavenumber[k]);
     measured.y.push_back(radial.psd[k]);
   }
   panel.curves.push_back(std::move(measured));
   if (hurst.found()) {
-    // Through the geometric middle of the fitted range, where the law and the mean cross.
+    // Draws a power law with the fitted exponent H. Its factor is the mean of C(q) q^{2(1+H)} over
+    // the Fourier modes in the fitted range (C: spectral density at the wavenumber q).
     double level = 0, weight = 0;
     for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
       const double q = radial.wavenumber[k];

@@ -54,8 +54,8 @@ std::size_t text_width() {
 
 namespace {
 
-/// Where the lines after the first of a paragraph begin: below a description that follows two
-/// blanks, else below its first word.
+/// Column at which the continued lines of a paragraph begin: that of the description, which follows
+/// two blanks; without a description, that of the first word.
 std::size_t hanging_indent(std::string_view line, std::size_t width) {
   const std::size_t first = line.find_first_not_of(' ');
   if (line.substr(first).starts_with("salebra ")) return first + 4;
@@ -109,9 +109,10 @@ std::string wrapped(std::string_view text, std::size_t width) {
 void print_answer(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
     return;
-  // A reader such as head has what it wanted.
+  // A reader of the output, such as `head`, may close the pipe early; that is no error.
   if (errno != EPIPE)
-    throw IoError("standard output: cannot be written; check the disk or the reader of the pipe");
+    throw IoError(
+        "standard output: cannot be written; check the disk or the program that reads the pipe");
 }
 
 void print_to_stderr(std::string_view text) noexcept {

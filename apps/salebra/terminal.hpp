@@ -6,38 +6,36 @@
 
 namespace salebra::cli {
 
-/// What a word on a terminal stands out as. Red and magenta are legible on dark and on light
-/// ground, which yellow and blue are not.
+/// Colour of a word on a terminal. Red and magenta are legible on dark and on light backgrounds;
+/// yellow and blue are not.
 enum class Emphasis { error, warning, heading };
 
-/// Whether text on this file descriptor may be coloured: a terminal that knows how, and no NO_COLOR
-/// in the environment (https://no-color.org).
+/// Whether text on this file descriptor may be coloured: it must be a terminal with colours, and
+/// NO_COLOR must not be in the environment (https://no-color.org).
 bool in_colour(int descriptor);
 
-/// The text in the colour of its kind where the descriptor may have colours; elsewhere as it is.
+/// The text in the colour of `emphasis` if the descriptor may have colours; otherwise unchanged.
 std::string emphasised(std::string_view text, Emphasis emphasis, int descriptor);
 
-/// Columns of standard output: COLUMNS of the environment, the width of the terminal, or 80; at
-/// least 40.
+/// Width of standard output in columns: the environment variable COLUMNS, the width of the
+/// terminal, or 80; at least 40.
 std::size_t text_width();
 
-/// The text with no line beyond the width: what does not fit goes on below the place where a line's
-/// description begins, and command
-/// lines, "  salebra …", with a backslash.
+/// Wraps the text at this width. A continued line is indented to the description in its line.
+/// Command lines, which begin with "  salebra ", are continued with a backslash.
 std::string wrapped(std::string_view text, std::size_t width);
 
-/// Characters, not bytes: "µ" takes two bytes and one column.
+/// Number of characters, each of which takes one column; "µ" has two bytes and takes one column.
 std::size_t columns_of(std::string_view text);
 
-/// The name by which messages call this program: salebra, unless it was given another.
+/// The name of this program in messages; default salebra.
 void name_program(std::string_view name);
 std::string_view program_name();
 
-/// Prints an answer on standard output. Throws IoError where it does not arrive there.
+/// Prints an answer on standard output. Throws IoError if that fails.
 void print_answer(std::string_view text);
 
-/// Prints a warning on standard error. Where that fails there is nowhere to say so, and the work
-/// goes on.
+/// Prints a note on standard error. A failure is ignored, because there is nowhere to report it.
 void print_to_stderr(std::string_view text) noexcept;
 
 }  // namespace salebra::cli

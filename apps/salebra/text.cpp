@@ -21,7 +21,7 @@ std::string cell(const Json& value, Dimension dimension) {
   return value.dump();
 }
 
-/// Columns of one length, the heading first.
+/// Columns of equal length of a table; the first entry of each is its heading.
 using Columns = std::vector<std::vector<std::string>>;
 
 std::string columns_to_table(const Columns& columns, int indent) {
@@ -31,7 +31,7 @@ std::string columns_to_table(const Columns& columns, int indent) {
   return to_table(rows, indent);
 }
 
-/// A list of objects of the same keys, a row for each.
+/// Table of a list of JSON objects with the same keys, one row for each object.
 std::string rows_to_table(const Json& list, const std::string& object, int indent) {
   Columns columns;
   for (const auto& [key, first] : list[0].items()) {
@@ -42,7 +42,7 @@ std::string rows_to_table(const Json& list, const std::string& object, int inden
   return columns_to_table(columns, indent);
 }
 
-/// What is not a list of numbers fits on a line.
+/// Whether a value is printed on one line: any value except an object or a list of numbers.
 bool is_line(const Json& value) {
   return !value.is_structured() || (value.is_array() && !value.empty() && value[0].is_string());
 }
@@ -51,7 +51,7 @@ void append(std::string& text, const Json& object, const std::string& name, int 
   std::size_t key_width = 0;
   for (const auto& [key, value] : object.items())
     if (is_line(value)) key_width = std::max(key_width, key.size());
-  // Lists of different lengths have nothing to do with each other.
+  // Lists of different lengths go into different tables.
   std::vector<Columns> tables;
   for (const auto& [key, value] : object.items()) {
     const Dimension dimension = quantity_of(key, name).dimension;
@@ -79,8 +79,8 @@ void append(std::string& text, const Json& object, const std::string& name, int 
   for (const Columns& table : tables) text += columns_to_table(table, indent);
 }
 
-/// The columns of a table in parts that fit the width of the text, each beginning with the first
-/// column.
+/// Divides the columns of a table into parts that fit the width of the text. Each part begins with
+/// the first column.
 std::vector<std::vector<std::size_t>> parts_of(const std::vector<std::size_t>& widths,
                                                std::size_t indent) {
   const std::size_t line_width = text_width();
@@ -115,7 +115,7 @@ std::string to_table(const std::vector<std::vector<std::string>>& rows, int inde
       for (const std::size_t i : part) {
         if (i >= row.size()) break;
         const std::string padding(widths[i] - columns_of(row[i]), ' ');
-        // Names on the left, numbers on the right.
+        // Names are left-aligned, numbers right-aligned.
         line += i == 0 && names_first ? row[i] + padding : padding + row[i];
         if (i != part.back()) line += "  ";
       }

@@ -8,12 +8,14 @@
 
 namespace salebra::cli {
 
-/// A JSON answer for people: "name  value unit" lines, lists of one length side by side as a table, a list of objects as a table of
-/// its own, objects indented. Units and prefixes come from quantity_of.
+/// Lays out a JSON answer as text: lines "name  value unit"; lists of equal length as columns of
+/// one table; a list of objects as a table; objects indented. Units and SI prefixes follow from
+/// quantity_of().
 std::string to_text(const Json& object);
 
-/// Columns padded to their widest cell; the first row is the heading. names_first: the first column
-/// is text. A table that is wider than text_width() comes in parts, each with the first column.
+/// Pads the cells of each column to the widest one. The first row is the heading. names_first:
+/// whether the first column contains text. A table wider than text_width() is divided into parts,
+/// each of which begins with the first column.
 std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent = 2,
                      bool names_first = false);
 

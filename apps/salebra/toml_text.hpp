@@ -7,10 +7,11 @@
 #include <string>
 #include <string_view>
 
-/// Pieces of the commented TOML files that commands write to start from.
+/// Functions that write parts of TOML files with comments, which commands make as a start for the
+/// user.
 namespace salebra::cli {
 
-/// A TOML string, whatever is in the name of a file.
+/// A TOML string of a file name, in which special characters are escaped.
 inline std::string toml_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -27,14 +28,16 @@ inline std::string toml_length(double metres) {
   return toml_string(fmt::format("{:.12g}nm", 1e9 * metres));
 }
 
-/// The key as it is where a value was given, else as a choice that was not made.
+/// The line of a key with its value. If `value` is empty, the line has the example as value and is
+/// commented out.
 inline std::string key_or_choice(std::string_view key, const std::string& value,
                                  std::string_view example, std::string_view comment) {
   return value.empty() ? fmt::format("# {} = {}  # {}", key, example, comment)
                        : fmt::format("{} = {}  # {}", key, value, comment);
 }
 
-/// The name of a file from the folder of the list or study file, where its relative names begin.
+/// The name of a file relative to the folder of `list`, the list of scans or the study file that
+/// names it.
 inline std::string toml_file(const std::string& file, const std::string& list) {
   namespace fs = std::filesystem;
   const fs::path found = fs::absolute(file);

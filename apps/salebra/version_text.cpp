@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the program was made of and where it runs.
+// Build and environment of the program.
 #include "version_text.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +31,9 @@ std::string version_text(const Launch& launch) {
   line("build", fmt::format("{}, {}", SALEBRA_BUILD_TYPE,
                             can_report() ? "with reports" : "without plotly.js: no reports"));
   line("threads", std::to_string(parallel::threads()));
-  line("processes",
-       launch.mpi.empty() ? "one" : fmt::format("{} by {}", launch.communicator.size(), launch.mpi));
+  line("processes", launch.mpi.empty()
+                        ? "one"
+                        : fmt::format("{} by {}", launch.communicator.size(), launch.mpi));
   line("system", fmt::format("{} {} {}, glibc {}", system.sysname, system.release, system.machine,
                              gnu_get_libc_version()));
   return text;

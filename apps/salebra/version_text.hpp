@@ -8,11 +8,11 @@
 
 namespace salebra::cli {
 
-/// The commit of the program's sources; empty: not known.
+/// The commit of the sources from which the program was built; empty if not known.
 std::string_view source_revision();
 
-/// What `--version --verbose` prints, which a report of a fault needs: a line each of revision,
-/// compiler, libraries, processor, processes and system.
+/// Text of `--version --verbose`, which a bug report needs: a line each for revision, compiler,
+/// libraries, build, processor, processes and system.
 std::string version_text(const Launch& launch);
 
 }  // namespace salebra::cli

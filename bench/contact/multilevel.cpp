@@ -62,7 +62,7 @@ Solved solve(const Surface& surface, const Case& c, MultilevelShare share) {
     if (k + 1 == levels.size()) {
       guess.setConstant(target.value);
     } else {
-      detail::prolong({levels[k + 1], solved.pressure, gap, solved.outcome.level}, levels[k],
+      detail::prolong({levels[k + 1], solved.pressure, gap, solved.outcome.plane_height}, levels[k],
                       c.boundary, 0.6 / cell_compliance(grid, 1), guess.data());
     }
     solved.pressure = std::move(guess);
@@ -160,8 +160,8 @@ int main(int argc, char** argv) {
     const Index points = boundary == Boundary::free ? n / 2 : n;
     const Grid2D grid{points, points, static_cast<double>(points), static_cast<double>(points)};
     if (const auto multilevel = detail::MultilevelKernel::make(
-            grid, RowPartition(points), detail::normal_symbol(grid, 1, boundary, RowPartition(points)), 1,
-            boundary))
+            grid, RowPartition(points),
+            detail::normal_symbol(grid, 1, boundary, RowPartition(points)), 1, boundary))
       std::printf("%s: %d levels, eps %.4f, eps/(1 - eps) %.4f\n",
                   boundary == Boundary::free ? "free" : "periodic", multilevel->depth(),
                   multilevel->error(), multilevel->error() / (1 - multilevel->error()));

@@ -94,8 +94,8 @@ void profile(const Surface& surface, double load) {
     if (k + 1 == levels.size()) {
       guess.setConstant(target.value);
     } else {
-      detail::prolong({levels[k + 1], pressure, gap, outcome.level}, level, Boundary::periodic,
-                      0.6 / cell_compliance(level.grid, 1), guess.data());
+      detail::prolong({levels[k + 1], pressure, gap, outcome.plane_height}, level,
+                      Boundary::periodic, 0.6 / cell_compliance(level.grid, 1), guess.data());
     }
     pressure = std::move(guess);
     gap = Field(level.grid.nx, level.grid.ny);

@@ -202,7 +202,7 @@ int main(int count, char** words) {
     std::printf("%zu %.4f %.4f %.5g %.4f %.4f %.4f %.4f %.4f %.2g %+.4f %d %.3g\n", kind, load,
                 amplitude, r.work_per_cycle, r.work_per_cycle_error() / w, r.error.cells / w,
                 r.error.noise / w, r.error.intervals / w, r.error.stiffness_ratio / w,
-                r.error.solver / w, actual, r.levels, r.window / motion.normal_amplitude);
+                r.error.solver / w, actual, r.intervals, r.window / motion.normal_amplitude);
     std::fflush(stdout);
     if (!r.converged || !std::isfinite(converged)) continue;
     count_case(r.work_per_cycle_error() / w, actual);

@@ -66,7 +66,7 @@ int main(int count, char** words) {
   const Material material = Material::of_contact_modulus(115e9, 0.3);
   const Drag motion{1e-9, 1e-6, 2 * std::numbers::pi * 20e3};
   IntervalQuadratureOptions options;
-  options.levels = std::atoi(words[3]);
+  options.intervals = std::atoi(words[3]);
   WarmLevels warm(surface, material.contact_modulus);
   for (int k = 4; k < count; ++k) {
     const double pressure = std::atof(words[k]);
@@ -74,7 +74,7 @@ int main(int count, char** words) {
     const double indentation = warm.indentation_at(pressure);
     const IntervalQuadratureResult result =
         interval_quadrature([&](double at) { return warm.at(at); }, surface.grid, material, motion,
-                         indentation, options);
+                            indentation, options);
     const auto constant = [&](double work) { return closed_form::damping_constant(work, motion); };
     std::printf("%.5g %.6g %.3g %.5g %.6g %.0f %.0f%s\n", pressure, constant(result.work_per_cycle),
                 constant(result.error_estimate), result.force_curvature,

@@ -25,10 +25,10 @@ std::vector<double> seconds_of(const Communicator& communicator, int repeats,
                                const std::function<void()>& body) {
   std::vector<double> times;
   for (int k = 0; k <= repeats; ++k) {
-    ranks.all_agree(true);
+    communicator.all_agree(true);
     const auto start = std::chrono::steady_clock::now();
     body();
-    ranks.all_agree(true);
+    communicator.all_agree(true);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     if (k > 0) times.push_back(elapsed.count());  // the first one touches memory and makes plans
   }

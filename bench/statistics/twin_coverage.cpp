@@ -137,7 +137,8 @@ int main(int argc, char** argv) {
                  spectrum.rms_height, twin.rms_height.low, twin.rms_height.high, truth.rms_slope,
                  twin.rms_slope.low, twin.rms_slope.high, std::string(name_of(twin.form)).c_str(),
                  twin.misfit, twin.rolloff_ratio, twin.cutoff_ratio, twin.form_ratio);
-    for (const std::string& warning : twin.warnings) std::fprintf(stderr, "      %s\n", note.c_str());
+    for (const std::string& warning : twin.warnings)
+      std::fprintf(stderr, "      %s\n", warning.c_str());
   }
   std::sort(misfits.begin(), misfits.end());
   std::printf(

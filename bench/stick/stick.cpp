@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cost of stick solves, of the level quadrature and of the time-stepped cycle on a self-affine
 // surface, one thread.
-// Sample runs:  stick        stick solve 256 512 1024        stick levels 512 32        stick cycle 256 64
+// Sample runs:  stick        stick solve 256 512 1024        stick intervals 512 32        stick cycle 256 64
 // CPU time is what counts where the machine is busy; wall time is printed beside it.
 #include <chrono>
 #include <cmath>
@@ -61,26 +61,27 @@ void solve(Index n) {
 struct RoughContact {
   Surface surface;
   Material material = Material::of_contact_modulus(1.0, 0.3);
-  ContactSets levels;
+  ContactSets contact_sets;
   double indentation = 0, amplitude = 0;
 
   explicit RoughContact(Index n) : surface(rough(n)) {
     indentation = press(surface, 1.0, at_pressure(0.02 * slope)).indentation;
     amplitude = 0.2 * std::sqrt(surface.heights.square().mean());
-    levels = boundary_element_contact_sets(surface, 1.0);
+    contact_sets = boundary_element_contact_sets(surface, 1.0);
   }
 };
 
-void levels(Index n, int count) {
+void intervals(Index n, int count) {
   const RoughContact contact(n);
   IntervalQuadratureOptions options;
-  options.levels = count;
+  options.intervals = count;
   const Stopwatch watch;
   const IntervalQuadratureResult result = interval_quadrature(
-      contact.levels, contact.surface.grid, contact.material,
+      contact.contact_sets, contact.surface.grid, contact.material,
       EqualFrequency{contact.amplitude, contact.amplitude, 1.0}, contact.indentation, options);
   std::printf(
-      "levels  %4ld^2  %3d levels  %4ld pairs on contact sets  W %.6e +- %.1e  K_t/(G*/E*)K %.4f  "
+      "intervals  %4ld^2  %3d intervals  %4ld pairs on contact sets  W %.6e +- %.1e  K_t/(G*/E*)K "
+      "%.4f  "
       "CPU %.2f "
       "s  wall %.2f s\n",
       static_cast<long>(n), count, result.fft_count, result.work_per_cycle, result.error_estimate,
@@ -93,7 +94,7 @@ void cycle(Index n, int steps) {
   options.steps = steps;
   const Stopwatch watch;
   const CycleResult result = simulate_cycle(
-      contact.levels, contact.surface.grid, contact.material,
+      contact.contact_sets, contact.surface.grid, contact.material,
       trajectory_of(EqualFrequency{contact.amplitude, contact.amplitude, 1.0}, contact.indentation),
       options);
   std::printf(
@@ -116,7 +117,7 @@ int main(int argc, char** argv) {
          numbers.empty() || what == "all" ? std::vector<int>{256, 512, 1024} : numbers)
       solve(n);
   if (what == "intervals" || what == "all")
-    levels(numbers.empty() ? 512 : numbers[0], numbers.size() < 2 ? 32 : numbers[1]);
+    intervals(numbers.empty() ? 512 : numbers[0], numbers.size() < 2 ? 32 : numbers[1]);
   if (what == "cycle" || what == "all")
     cycle(numbers.empty() ? 256 : numbers[0], numbers.size() < 2 ? 64 : numbers[1]);
 }

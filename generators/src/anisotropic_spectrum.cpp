@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anisotropic spectrum: an isotropic one stretched along a lay by Peklenik's number.
+// Anisotropic spectrum: an isotropic spectrum stretched along a lay by Peklenik's number, a ratio
+// of correlation lengths.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -15,7 +16,7 @@ AnisotropicSpectrum::AnisotropicSpectrum(std::shared_ptr<const IsotropicSpectrum
       anisotropy_(anisotropy),
       cosine_(std::cos(anisotropy.angle)),
       sine_(std::sin(anisotropy.angle)) {
-  require(isotropic_ != nullptr, "isotropic", "none", "is no spectrum; give one");
+  require(isotropic_ != nullptr, "isotropic", "none", "is not given; give a spectrum");
   require_positive(anisotropy.along, "along");
   require_positive(anisotropy.across, "across");
   require(std::isfinite(anisotropy.angle), "angle", anisotropy.angle, "must be finite (rad)");
@@ -34,8 +35,9 @@ double AnisotropicSpectrum::highest_wavenumber() const {
 
 SpectralMoments AnisotropicSpectrum::moments() const {
   const SpectralMoments isotropic = isotropic_->moments();
-  // With q' = (along·q₁, across·q₂), q·e = q'·v for v = (e₁/along, e₂/across), and an isotropic
-  // spectrum has ∫(q'·v)ⁿ ∝ |v|ⁿ.
+  // With the wave vector q = (q₁, q₂) along and across the lay, the isotropic spectrum is taken at
+  // q' = (along·q₁, across·q₂). For a unit vector e, q·e = q'·v with v = (e₁/along, e₂/across), and
+  // for an isotropic spectrum the moment ∫(q'·v)ⁿ is proportional to |v|ⁿ.
   const auto square = [&](double e1, double e2) {
     return std::pow(e1 / anisotropy_.along, 2) + std::pow(e2 / anisotropy_.across, 2);
   };

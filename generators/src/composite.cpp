@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sum of two surfaces, and crop of a surface.
+// Sum of the heights of two surfaces, and rectangular part of a surface.
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/composite.hpp>

@@ -28,8 +28,9 @@ double mean_of(const Surface& surface, double (*term)(double height, double mean
   return sum / static_cast<double>(surface.grid.points());
 }
 
-// √Σ|q|²|a|² over the whole spectrum, as √⟨h·(−∇²h)⟩; a Nyquist mode has |q| = π/dx. A convolution
-// is spread over processes, and takes less memory than the spectrum.
+// The rms slope √Σ|q|²|a|² over the modes a of the whole spectrum, computed as √⟨h·(−∇²h)⟩, a mean
+// over the points; a mode at the Nyquist frequency of x has |q_x| = π/dx. The convolution that
+// gives −∇²h can be distributed over processes and takes less memory than the spectrum.
 double rms_slope_of(const Surface& surface, double mean) {
   const Grid2D& grid = surface.grid;
   const double step_x = 2 * std::numbers::pi / grid.lx, step_y = 2 * std::numbers::pi / grid.ly;
@@ -80,7 +81,8 @@ Surface scaled(Surface surface, double mean, double present, double target) {
 
 Surface scale_to_rms(Surface surface, Rms which, double target) {
   require_positive(target, which == Rms::height ? "rms_height" : "rms_slope");
-  collectively(surface.communicator, [&] { surface.require_complete_rows("scaling to an rms value"); });
+  collectively(surface.communicator,
+               [&] { surface.require_complete_rows("scaling to an rms value"); });
   const double mean = mean_of(surface, [](double h, double) { return h; }, 0);
   double present = 0;
   if (which == Rms::height) {
@@ -104,9 +106,9 @@ Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t se
   if (which == Rms::height) {
     surface = scale_to_rms(std::move(surface), which, moments.rms_height());
   } else {
-    // Random phase has the moments of the lattice.
-    const SpectralMoments lattice =
-        spectrum.lattice_moments(grid, [&](const ProgressReport&) { return keep_going(); }, communicator);
+    // A surface with only random phases has exactly the spectral moments of the grid's modes.
+    const SpectralMoments lattice = spectrum.lattice_moments(
+        grid, [&](const ProgressReport&) { return keep_going(); }, communicator);
     require_positive(moments.rms_slope(), "rms_slope");
     surface = scaled(std::move(surface), 0, lattice.rms_slope(), moments.rms_slope());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expected roughness, its scatter and the memory of a surface before it is generated.
+// Expected roughness of a surface, its scatter between seeds, and the memory that generating it needs.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,8 +14,9 @@
 namespace salebra {
 namespace {
 
-// ½√(2ΣP²)/ΣP over all modes: |a|² of a pair of conjugates and of a real mode have the variances P²
-// and 2P².
+// Relative standard deviation of the rms height, ½√(2ΣP²)/ΣP over the mean powers P of all modes,
+// counting a conjugate pair as two modes. For a Gaussian amplitude a, the variance of |a|² is P²
+// for one of a conjugate pair and 2P² for a real mode.
 double scatter_of(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress) {
   const detail::CarriedModes carried(grid, spectrum);
   const auto sum_of_powers = [&](int exponent) {
@@ -62,19 +63,18 @@ Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& 
   const double shortest = 2 * std::numbers::pi / spectrum.highest_wavenumber();
   const double cells = shortest / std::max(grid.dx(), grid.dy());
   if (cells < 8 * (1 - 1e-9))
-    result.warnings.push_back(sentence(
-        "the shortest wavelength has ", cells,
-        " cells; contact areas need at least 8 (with 4 they are 13 to 27 % too large, most "
-        "at light loads)"));
+    result.warnings.push_back(sentence("the shortest wavelength has ", cells,
+                                       " cells; accurate contact areas need at least 8 (with 4 "
+                                       "they are 13 to 27 % too large, most at light loads)"));
   const double ratio = result.lattice.rms_height() / result.target.rms_height();
   if (std::abs(ratio - 1) > 0.05)
-    result.warnings.push_back(
-        sentence("the modes of this cell have ", ratio,
-                 " times the rms height asked; a cell of many roll-off wavelengths comes closer"));
+    result.warnings.push_back(sentence(
+        "the modes of this period have ", ratio,
+        " times the requested rms height; a side of many roll-off wavelengths comes closer"));
   if (result.rms_height_scatter > 0.05)
     result.warnings.push_back(sentence(
         "the rms height of filtered noise scatters by ", 100 * result.rms_height_scatter,
-        " % from seed to seed; take a roll-off below an eighth of the cell, or random phase"));
+        " % from seed to seed; take a roll-off below an eighth of the side, or random phase"));
   return result;
 }
 

@@ -19,11 +19,13 @@ Surface surface_of_modes(const Grid2D& grid, const std::vector<FourierMode>& mod
     for (const auto& [wave, points] : {std::pair(mode.i, grid.nx), {mode.j, grid.ny}})
       require(2 * std::abs(wave) < points, "modes", wave,
               "periods need more than twice as many points; use a finer grid");
-    // Waves with j < 0 are stored by their opposites, those with j = 0 in both places.
+    // A wave with j < 0 is stored as its conjugate (−i, −j); a wave with j = 0 is stored at (i, 0)
+    // and (−i, 0).
     const auto put = [&](Index i, Index j, std::complex<double> amplitude) {
       if (j < 0) return;
       const auto position = std::size_t((i < 0 ? i + grid.nx : i) * fft.modes_y() + j);
-      require(!given[position] || std::abs(spectrum[position] - amplitude) <= 1e-6 * std::abs(amplitude),
+      require(!given[position] ||
+                  std::abs(spectrum[position] - amplitude) <= 1e-6 * std::abs(amplitude),
               "modes", i, "periods along x have two amplitudes that contradict each other");
       spectrum[position] = amplitude;
       given[position] = true;

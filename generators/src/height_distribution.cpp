@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Height distributions by quantile: Gaussian, Weibull, sampled, and Johnson's curves.
+// Height distributions given by their quantile function: Gaussian, Weibull, sampled, and Johnson's
+// curves.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +15,8 @@ namespace salebra {
 double normal_quantile(double u) {
   require(u > 0 && u < 1, "u", u, "must lie in 0 < u < 1");
   if (u > 0.5) return -normal_quantile(1 - u);
-  // Newton's method on ln Φ(x) = ln u. ln Φ is concave, hence the iterates rise to the root from
-  // any point below it, such as this.
+  // Newton's method for x in ln Φ(x) = ln u, with the standard normal distribution Φ. ln Φ is
+  // concave, so iterates rise to the root from any start below it, such as this one.
   double x = -std::sqrt(-2 * std::log(u));
   for (int step = 0; step < 20; ++step) {
     const double below = std::erfc(-x / std::numbers::sqrt2) / 2;
@@ -41,7 +42,7 @@ HeightDistribution sampled_heights(std::vector<double> heights) {
   auto sorted = std::make_shared<std::vector<double>>(std::move(heights));
   std::sort(sorted->begin(), sorted->end());
   require(sorted->size() >= 2 && sorted->front() < sorted->back(), "heights", sorted->size(),
-          "values have no distribution; give at least two different ones");
+          "values do not define a distribution; give at least two different ones");
   const std::string name = "distribution of " + std::to_string(sorted->size()) + " heights";
   return {[sorted](double u) {
             const auto last = static_cast<double>(sorted->size() - 1);
@@ -61,8 +62,8 @@ struct Shape {
   double kurtosis = 3;
 };
 
-// Moments of x(Z), Z standard normal, by the trapezoidal rule, which for such integrands converges
-// faster than any power of its step.
+// Skewness and kurtosis of x(Z) for a standard normal variable Z, by the trapezoidal rule over
+// −limit … limit. For such integrands its error falls faster than any power of the step.
 template <class Transform>
 Shape shape_of(const Transform& x, double limit, double step) {
   double weight = 0, mean = 0;
@@ -83,7 +84,8 @@ Shape shape_of(const Transform& x, double limit, double step) {
   return {m3 / std::pow(m2, 1.5), m4 / (m2 * m2)};
 }
 
-// S_U in closed form of Johnson (1949), with γ < 0 for a positive skewness; Ω = −γ/δ > 0.
+// Skewness and kurtosis of Johnson's unbounded curve S_U: closed form of Johnson (1949), with γ < 0
+// for a positive skewness; Ω = −γ/δ > 0.
 Shape unbounded_shape(double gamma, double delta) {
   const double w = std::exp(1 / (delta * delta)), omega = -gamma / delta;
   const double a = w * std::cosh(2 * omega) + 1;
@@ -104,12 +106,12 @@ Shape bounded_shape(double gamma, double delta) {
                   std::min(0.05, delta / 5));
 }
 
-// S_L: w = exp(1/δ²).
+// Skewness and kurtosis of Johnson's lognormal curve S_L, with w = exp(1/δ²).
 Shape lognormal_shape(double w) {
   return {std::sqrt(w - 1) * (w + 2), w * w * (w * (w + 2) + 3) - 3};
 }
 
-// The root of an increasing function by bisection to the last bits.
+// Root of an increasing function between low and high, by bisection to the last bits.
 template <class Function>
 double root_of(const Function& increasing, double low, double high) {
   for (int step = 0; step < 100; ++step) {
@@ -119,8 +121,8 @@ double root_of(const Function& increasing, double low, double high) {
   return (low + high) / 2;
 }
 
-// The γ at which a curve of this δ has the skewness, which grows from 0 as γ moves away from 0 in
-// the given direction.
+// The parameter γ at which a Johnson curve with the given parameter δ has the given skewness. The
+// skewness grows from 0 as γ moves away from 0 in the direction (1 or −1).
 template <class ShapeOf>
 double gamma_of(const ShapeOf& shape, double skewness, double delta, double direction) {
   if (skewness == 0) return 0;
@@ -133,22 +135,22 @@ double gamma_of(const ShapeOf& shape, double skewness, double delta, double dire
                          0, reach);
 }
 
-// Quantile of the curve for a skewness >= 0.
+// Quantile of a Johnson curve as a function of a standard normal z, for a skewness >= 0.
 std::function<double(double)> johnson_transform(double skewness, double kurtosis) {
   const double w_lognormal =
       skewness == 0
           ? 1
           : root_of([&](double w) { return lognormal_shape(w).skewness - skewness; }, 1, 1e3);
   const double excess = kurtosis - lognormal_shape(w_lognormal).kurtosis;
-  // Within this of the lognormal line γ grows beyond all limits, and the curve is lognormal to as
-  // many digits.
+  // If the kurtosis is this close to that of the lognormal curve of equal skewness, γ grows without
+  // bound, and the curve is lognormal within rounding.
   if (std::abs(excess) < 1e-6 * kurtosis) {
     const double scale = std::sqrt(std::log(w_lognormal));
     if (scale < 1e-6) return [](double z) { return z; };
     return [=](double z) { return std::exp(scale * z); };
   }
-  // Along the curves of one skewness, kurtosis grows away from the lognormal line with w on the
-  // side of S_U and falls with δ on that of S_B.
+  // Among curves of equal skewness, the kurtosis increases with w = exp(1/δ²) from the lognormal
+  // curve on (unbounded curves S_U), and with δ up to the lognormal curve (bounded curves S_B).
   if (excess > 0) {
     const auto delta_of = [](double w) { return 1 / std::sqrt(std::log(w)); };
     const double w = root_of(
@@ -180,12 +182,12 @@ HeightDistribution johnson_heights(double skewness, double kurtosis) {
   require(std::isfinite(skewness) && std::abs(skewness) <= 10, "skewness", skewness,
           "must lie in -10 … 10");
   require(kurtosis > skewness * skewness + 1 && kurtosis <= 1000, "kurtosis", kurtosis,
-          "must exceed skewness^2 + 1, as that of every distribution does, and not 1000");
+          "must exceed skewness^2 + 1, as for every distribution, and be at most 1000");
   const auto transform = johnson_transform(std::abs(skewness), kurtosis);
   const Shape reached = shape_of(transform, 30.0, 0.01);
   require(std::abs(reached.skewness - std::abs(skewness)) < 1e-3 * (1 + std::abs(skewness)) &&
               std::abs(reached.kurtosis - kurtosis) < 1e-3 * kurtosis,
-          "kurtosis", kurtosis, "is too near to skewness^2 + 1 for a smooth distribution");
+          "kurtosis", kurtosis, "is too close to skewness^2 + 1 for a smooth distribution");
   const double sign = skewness < 0 ? -1 : 1;
   return {[=](double u) { return sign * transform(sign * normal_quantile(u)); },
           "johnson heights, skewness " + std::to_string(skewness) + ", kurtosis " +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Wave vectors that a grid carries of a spectrum, and their random complex amplitudes.
+// Wave vectors of a spectrum that a grid can represent, and their random complex amplitudes.
 #include "modes.hpp"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ void RandomModes::draw(Index i, Index j, std::span<std::complex<double>> factors
     fill_gaussian(seed_, key(i), key(j), factors);
 }
 
-// A wave that is its own conjugate has one real degree of freedom, which carries the whole power.
+// Random factor of a wave that is its own conjugate. It has one real degree of freedom, which
+// carries the whole power.
 double RandomModes::real_factor(Index i, Index j) const {
   if (chance_ == Chance::gaussian_amplitude) return gaussian_pair(seed_, key(i), key(j)).first;
   std::complex<double> factor;
@@ -55,14 +56,14 @@ void RandomModes::column(Index j, std::span<std::complex<double>> column) const 
   const Index nx = carried_.grid().nx;
   const Index i_max = carried_.i_max(j);
   const bool mirror = carried_.own_mirror(j);
-  // One of two conjugates is drawn: that with j > 0 or, where the column is its own mirror image,
-  // with i > 0.
+  // Only one of two conjugate waves (i, j) and (−i, −j) is drawn: the one with j > 0 or, in a
+  // column that is its own mirror image, the one with i > 0.
   const Index first = mirror ? 0 : 2 * i_max == nx ? 1 - i_max : -i_max;
   std::vector<double> amplitudes(at(i_max - first + 1));
   const double qy = static_cast<double>(j) * carried_.step_y();
   carried_.spectrum().density_row(first, carried_.step_x(), qy, amplitudes);
   const double mode_area = carried_.step_x() * carried_.step_y();
-  // ⟨|x + iy|²⟩ = 2 for two standard normal variables.
+  // For two standard normal variables x and y, the mean of |x + iy|² is 2.
   const double scale = chance_ == Chance::phase ? 1 : 0.5;
   for (double& amplitude : amplitudes) amplitude = std::sqrt(amplitude * mode_area * scale);
   const auto amplitude = [&](Index i) { return amplitudes[at(i - first)]; };

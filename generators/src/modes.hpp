@@ -9,19 +9,19 @@
 
 namespace salebra::detail {
 
-/// Which modes of a grid a spectrum can fill: a half-plane 0 <= j <= j_max, the other half being
-/// conjugate, and in its column j the waves |i| <= i_max(j). The pair ±nx/2 is one mode of the
-/// grid; +nx/2 names it.
+/// The modes of a grid that a spectrum can fill: the columns 0 <= j <= j_max of the wave vectors
+/// (modes with j < 0 are their conjugates), and in column j the waves |i| <= i_max(j). The waves i
+/// = ±nx/2 are a single mode of the grid, called +nx/2.
 class CarriedModes {
  public:
-  /// Both arguments must outlive the object. Throws as Spectrum::require_carried_by.
+  /// grid, spectrum: must outlive the object. Throws like Spectrum::require_carried_by().
   CarriedModes(const Grid2D& grid, const Spectrum& spectrum);
 
   Index j_max() const { return j_max_; }
   Index i_max(Index j) const;
-  /// Columns that are their own mirror image: (i, j) and (−i, j) are conjugates.
+  /// Whether column j is its own mirror image: (i, j) and (−i, j) are conjugates.
   bool own_mirror(Index j) const { return j == 0 || 2 * j == grid_->ny; }
-  /// Waves that are their own conjugate, in a column that is its own mirror image.
+  /// Whether wave i is its own conjugate, if its column is its own mirror image.
   bool own_conjugate(Index i) const { return i == 0 || 2 * i == grid_->nx; }
 
   double step_x() const { return step_x_; }  ///< 2π/lx, rad/m
@@ -34,13 +34,15 @@ class CarriedModes {
   const Spectrum* spectrum_;
   double step_x_, step_y_;
   double
-      // |q|, with an allowance for rounding; the density decides about waves on the limit
+      // maximum wave number |q|, with a margin for rounding; the density decides about waves at the
+      // limit
       highest_;
   Index j_max_;
 };
 
-/// visit(qx, qy, power, pair) for the modes of column j without the zero mode, one of each pair of
-/// conjugates: the mean power of the mode, and whether it has a conjugate.
+/// Calls visit(qx, qy, power, pair) for the modes of column j, one of each conjugate pair, without
+/// the mode q = 0. power is the mean power of the mode; pair says whether it has a conjugate that
+/// is not visited.
 template <class Visit>
 void for_each_mode_of_column(const CarriedModes& carried, Index j, Visit visit) {
   const Index nx = carried.grid().nx, last = carried.i_max(j);
@@ -57,16 +59,18 @@ void for_each_mode_of_column(const CarriedModes& carried, Index j, Visit visit) 
             !(mirror && carried.own_conjugate(i)));
 }
 
-/// What chance decides: the whole complex amplitude, or its phase alone.
+/// The random part of an amplitude: the whole complex number, or only its phase.
 enum class Chance { gaussian_amplitude, phase };
 
-/// Amplitudes a(i, j) of one surface, Fourier coefficients of a real field: h(x) = Σ a(q) e^{iq·x}.
+/// Random amplitudes a(i, j) of one surface, the Fourier coefficients of a real field h(x) = Σ a(q)
+/// e^{iq·x} over the wave vectors q.
 class RandomModes {
  public:
   RandomModes(const CarriedModes& carried, std::uint64_t seed, Chance chance)
       : carried_(carried), seed_(seed), chance_(chance) {}
 
-  /// column[i mod nx] = a(i, j) for all i, zeros included; 0 <= j <= j_max, nx entries.
+  /// Sets column[i mod nx] = a(i, j) for all i, including amplitudes of zero; 0 <= j <= j_max.
+  /// `column` has nx elements.
   void column(Index j, std::span<std::complex<double>> column) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface with given heights and spectrum by iterated amplitude-adjusted Fourier transform.
+// Surface with a given height distribution and spectrum, by the iterated amplitude-adjusted Fourier
+// transform.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -20,8 +21,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Heights of the distribution in increasing order, one for each point, with zero mean and the given
-// rms height.
+// As many heights as there are points, in increasing order, whose distribution is the given one,
+// with zero mean and the given rms height.
 std::vector<double> ordered_heights(const HeightDistribution& distribution, Index points,
                                     double rms_height) {
   std::vector<double> heights(static_cast<std::size_t>(points));
@@ -42,15 +43,15 @@ std::vector<double> ordered_heights(const HeightDistribution& distribution, Inde
   return heights;
 }
 
-// Gives the lowest point the lowest of the ordered heights, and so on. Equal heights keep the order
-// of the points.
+// Replaces the lowest height by the lowest of the ordered heights, the second lowest by the second,
+// and so on. Points of equal height keep their order.
 class RankMap {
  public:
   explicit RankMap(std::vector<double> ordered)
       : ordered_(std::move(ordered)), ranking_(ordered_.size()) {}
 
-  /// keep_going is asked every million comparisons, a small part of a second; where it says no, the
-  /// heights stay as they are.
+  /// Replaces the heights. Calls keep_going after every million comparisons, a small part of a
+  /// second. If keep_going returns false, the heights stay unchanged.
   bool apply(Field& heights, const std::function<bool()>& keep_going) {
     for (std::size_t k = 0; k < ranking_.size(); ++k)
       ranking_[k] = {heights.data()[k], static_cast<Index>(k)};
@@ -76,7 +77,7 @@ class RankMap {
   std::vector<Ranked> ranking_;
 };
 
-// The modes of a field, and the amplitudes that they shall have.
+// The Fourier modes of a field, and the amplitudes that they should have.
 class TargetAmplitudes {
  public:
   explicit TargetAmplitudes(const Field& field)
@@ -88,7 +89,8 @@ class TargetAmplitudes {
                    [](const Complex& mode) { return std::abs(mode); });
   }
 
-  // Transforms the field and returns its mismatch.
+  // Transforms the field and returns the relative rms difference between the amplitudes of its
+  // modes and the target amplitudes.
   double measure(const Field& field) {
     fft_.forward(field.data(), modes_.data());
     const double difference = sum([this](std::size_t k) {
@@ -98,7 +100,8 @@ class TargetAmplitudes {
     return std::sqrt(difference / sum([this](std::size_t k) { return targets_[k] * targets_[k]; }));
   }
 
-  // The field of the modes measured last, with the target amplitudes.
+  // Replaces `field` by a field whose modes have the phases of the last measured field and the
+  // target amplitudes.
   void impose(Field& field) {
     const double scale = 1 / static_cast<double>(field.size());
     parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
@@ -113,7 +116,8 @@ class TargetAmplitudes {
   }
 
  private:
-  // Sums over the whole spectrum: modes with a conjugate that is not stored count twice.
+  // Sum of term(index of a mode) over the whole spectrum: a mode whose conjugate is not stored
+  // counts twice.
   template <class Term>
   double sum(const Term& term) const {
     return parallel::sum_blocks(fft_.nx(), [&](Index begin, Index end) {
@@ -134,8 +138,8 @@ class TargetAmplitudes {
 }  // namespace
 
 std::size_t non_gaussian_memory(const Grid2D& grid) {
-  // Heights, those of the iteration before, the ordered ones and their ranks (two numbers each);
-  // modes and their targets.
+  // Memory for the heights, the previous heights, the ordered heights, and two numbers per point
+  // for the ranking; for the modes and their target amplitudes.
   const auto points = static_cast<std::size_t>(grid.points());
   const auto modes = static_cast<std::size_t>(grid.nx * (grid.ny / 2 + 1));
   return (5 * points + 3 * modes) * sizeof(double);

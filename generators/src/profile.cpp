@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random profiles: self-affine spectrum of a profile, filtered noise and random phase.
+// Random line profiles: self-affine spectrum of a profile, filtered noise and random phase.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -18,7 +18,7 @@ namespace salebra {
 namespace {
 
 using std::numbers::pi;
-// Surfaces draw from stream 0.
+// Profiles use their own random stream; surfaces use stream 0.
 constexpr std::uint32_t profile_stream = 1;
 
 Index last_wave(Index points, double length, const ProfileSpectrum& spectrum) {
@@ -26,7 +26,8 @@ Index last_wave(Index points, double length, const ProfileSpectrum& spectrum) {
   return static_cast<Index>(std::min(waves, static_cast<double>(points / 2)));
 }
 
-// h(x) = Σ a(i) e^{2πiix/length}, the backward transform of one column.
+// Profile h(x) = Σ a(i) e^{2πiix/length} with random amplitudes a of the waves, by a backward
+// transform.
 Profile synthesise(Index points, double length, const ProfileSpectrum& spectrum, std::uint64_t seed,
                    detail::Chance chance) {
   spectrum.require_carried_by(points, length);
@@ -43,7 +44,7 @@ Profile synthesise(Index points, double length, const ProfileSpectrum& spectrum,
     for (Index i = 1; i <= last; ++i) {
       std::complex<double>& mode = modes[static_cast<std::size_t>(i)];
       const double amplitude = std::sqrt(spectrum.density(static_cast<double>(i) * step) * step);
-      if (2 * i == points) {  // its own conjugate: real, with the whole power
+      if (2 * i == points) {  // own conjugate: real, with the whole power
         mode = amplitude * (gaussian ? mode.real() : std::copysign(1.0, mode.real()));
         continue;
       }

@@ -7,20 +7,20 @@
 
 namespace salebra::detail {
 
-/// ∫_1^ratio t^{exponent−1} dt, without loss of digits as the exponent goes through 0.
+/// ∫_1^ratio t^{exponent−1} dt, without cancellation for exponents near 0.
 inline double power_integral(double ratio, double exponent) {
   const double log_ratio = std::log(ratio);
   return exponent == 0 ? log_ratio : std::expm1(exponent * log_ratio) / exponent;
 }
 
-/// A spectrum is made of squares, which below this would be 0 and above it infinite.
+/// Checks that the square of an rms value neither underflows nor overflows in the spectrum.
 inline void require_square(double rms, const char* field) {
   require_positive(rms, field);
   require(rms > 1e-140 && rms < 1e140, field, rms, "must lie in 1e-140 … 1e140; check the unit");
 }
 
-/// Moments from integral(order) = ∫|q|^order C d²q: the mean over directions of cos² is 1/2, of
-/// cos⁴ 3/8.
+/// Spectral moments along x and y of an isotropic spectrum C, from integral(order) = ∫|q|^order C
+/// d²q. The mean over directions is 1/2 for cos² (moment 2) and 3/8 for cos⁴ (moment 4).
 template <class Integral>
 SpectralMoments isotropic_moments(const Integral& integral) {
   const double moment2 = integral(2) / 2;

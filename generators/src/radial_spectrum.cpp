@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Isotropic spectra from a function or a table, and those of Gaussian and exponential correlation.
+// Isotropic spectra from a function or a table, and from Gaussian and exponential correlations.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,18 +15,18 @@ namespace salebra {
 namespace {
 
 using std::numbers::pi;
-// A wave on a limit is in, whatever the rounding of its wave number.
+// A wave at a limit of the table counts as inside, whatever the rounding of its wave number.
 constexpr double limit_tolerance = 1e-9;
 
 struct Panel {
   double from, to;
-  double left, middle, right;  // values of the function
+  double left, middle, right;  // f at from, centre and to
 
   double simpson() const { return (to - from) / 6 * (left + 4 * middle + right); }
 };
 
-// Simpson's rule on halves until two levels agree; the difference of two levels is 15 times the
-// error of the finer one.
+// Halves the panel of Simpson's rule until two successive results agree. The difference of two
+// results is 15 times the error of the one with half panels.
 template <class Function>
 double adaptive(const Function& f, const Panel& panel, double tolerance, int depth) {
   const double centre = (panel.from + panel.to) / 2;
@@ -39,20 +39,23 @@ double adaptive(const Function& f, const Panel& panel, double tolerance, int dep
          adaptive(f, upper, tolerance / 2, depth - 1);
 }
 
-// ∫ over the limits, octave by octave from above, since a spectrum changes by powers of ten. Thirty
-// octaves down, what is left of a spectrum with a finite mean square is nothing.
+// Integrates octave by octave, the highest wave numbers first, because a spectrum changes by powers
+// of ten. Thirty octaves suffice: below them, a spectrum with a finite mean square contributes
+// nothing that counts.
 template <class Function>
 double integrate(const Function& f, double lowest, double highest) {
   double sum = 0;
   for (double to = highest; to > lowest && to > 1e-9 * highest; to /= 2) {
     const double from = std::max(to / 2, lowest);
-    // Panels of their own, lest a narrow peak slips between the first five points.
+    // Several panels per octave, so that the first points do not miss a narrow peak of the
+    // spectrum.
     constexpr int panels = 8;
     for (int k = 0; k < panels; ++k) {
       const double a = from + (to - from) * k / panels, b = from + (to - from) * (k + 1) / panels;
       const Panel panel{a, b, f(a), f((a + b) / 2), f(b)};
       const double size = std::max({std::abs(sum), std::abs(panel.simpson())});
-      // Below the least normal number a tolerance is 0 or rounding, and halving would not end.
+      // The tolerance must be a normal number: with 0 or rounding noise as the tolerance, the
+      // halving of panels would not end.
       sum += adaptive(f, panel, std::max(1e-12 * size, std::numeric_limits<double>::min()), 30);
     }
   }
@@ -85,9 +88,9 @@ double FunctionSpectrum::radial_density(double q) const {
 TabulatedSpectrum::TabulatedSpectrum(std::vector<double> wavenumbers, std::vector<double> densities)
     : wavenumbers_(std::move(wavenumbers)), densities_(std::move(densities)) {
   require(wavenumbers_.size() >= 2, "wavenumbers", wavenumbers_.size(),
-          "points are too few; give two or more");
+          "points given; give two or more");
   require(wavenumbers_.size() == densities_.size(), "densities", densities_.size(),
-          "values must be as many as the wavenumbers");
+          "values given; give one for each wavenumber");
   for (std::size_t k = 0; k < wavenumbers_.size(); ++k) {
     const std::string row = "[" + std::to_string(k) + "]";
     require_positive(wavenumbers_[k], "wavenumbers" + row);

@@ -22,23 +22,20 @@ using std::numbers::pi;
 void detail::validate(const SelfAffineParameters& p) {
   require(p.hurst > 0 && p.hurst <= 1, "hurst", p.hurst, "must lie in 0 < hurst <= 1");
   require_positive(p.short_cutoff, "short_cutoff");
-  require(p.rolloff || p.long_cutoff, "rolloff", "none",
-          "and no long_cutoff; give one of them, such as the size of the cell");
+  require_that(p.rolloff || p.long_cutoff, "rolloff",
+               "not given, nor is `long_cutoff`; give one of them, such as the size of the cell");
   if (p.long_cutoff) require_positive(*p.long_cutoff, "long_cutoff");
   if (p.rolloff) require_positive(*p.rolloff, "rolloff");
   if (p.long_cutoff && p.rolloff)
     require(*p.rolloff <= *p.long_cutoff, "rolloff", *p.rolloff,
-            "must not exceed long_cutoff (wavelengths); exchange them");
+            "must not exceed `long_cutoff` (wavelengths); exchange them");
   const double longest = p.rolloff ? *p.rolloff : *p.long_cutoff;
   require(p.short_cutoff <= longest, "short_cutoff", p.short_cutoff,
-          p.rolloff ? "must not exceed rolloff (wavelengths)"
-                    : "must not exceed long_cutoff (wavelengths)");
+          p.rolloff ? "must not exceed `rolloff` (wavelengths)"
+                    : "must not exceed `long_cutoff` (wavelengths)");
   require(!p.long_cutoff || p.short_cutoff < *p.long_cutoff, "short_cutoff", p.short_cutoff,
-          "must be shorter than long_cutoff, or the spectrum has no width");
-  require(p.rms_height.has_value() != p.rms_slope.has_value(), "rms_height",
-          p.rms_height ? "given" : "none",
-          p.rms_height ? "together with rms_slope; give one of them"
-                       : "and no rms_slope; give one of them");
+          "must be shorter than `long_cutoff`, or the spectrum has no width");
+  require_one(p.rms_height.has_value(), "rms_height", p.rms_slope.has_value(), "`rms_slope`");
   if (p.rms_height) require_square(*p.rms_height, "rms_height");
   if (p.rms_slope) require_square(*p.rms_slope, "rms_slope");
 }
@@ -78,7 +75,8 @@ double SelfAffineSpectrum::radial_density(double q) const {
 
 void SelfAffineSpectrum::density_row(Index first, double step_x, double qy,
                                      std::span<double> densities) const {
-  // In units of q_r² throughout, so that everything on the plateau is raised to its power as a 1.
+  // Squared wave numbers are in units of the squared roll-off q_r²; on the plateau they are
+  // replaced by 1, whose powers are 1.
   const double scale = 1 / (q_rolloff_ * q_rolloff_);
   const double lowest = scale * std::pow(q_long_ * (1 - detail::limit_tolerance), 2);
   const double highest = scale * std::pow(q_short_ * (1 + detail::limit_tolerance), 2);

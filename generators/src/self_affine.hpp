@@ -6,10 +6,11 @@
 
 namespace salebra::detail {
 
-/// A wave on a cut-off belongs to the spectrum, whatever the rounding of 2π/λ.
+/// Relative tolerance with which a wave at a cut-off belongs to the spectrum, whatever the rounding
+/// of 2π/λ for its wavelength λ.
 constexpr double limit_tolerance = 1e-9;
 
-/// Throws InvalidInput as SelfAffineSpectrum says.
+/// Throws InvalidInput for the same parameters as the constructor of SelfAffineSpectrum.
 void validate(const SelfAffineParameters& parameters);
 
 std::string describe(const SelfAffineParameters& parameters);

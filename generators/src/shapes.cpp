@@ -28,7 +28,7 @@ Surface surface_of(const Grid2D& grid, const std::string& name, bool periodic,
   return {grid, std::move(heights), periodic, name};
 }
 
-// A body with height(x, y) from its axis.
+// A body whose surface has the heights height(x, y), where x and y count from the axis of the body.
 template <class Height>
 Surface body(const Grid2D& grid, const std::string& name, const ShapeCenter& center,
              const Height& height) {
@@ -72,7 +72,8 @@ Surface ellipsoid_surface(const Grid2D& grid, double semi_x, double semi_y, doub
   require_positive(semi_z, "semi_z");
   return body(grid, "ellipsoid", center, [=](double x, double y) {
     const double square = std::pow(x / semi_x, 2) + std::pow(y / semi_y, 2);
-    // √(1−s) − 1 = −s/(1 + √(1−s)), which keeps its digits near the apex.
+    // With s the squared relative distance from the axis, √(1−s) − 1 = −s/(1 + √(1−s)) avoids
+    // cancellation near the apex.
     return square >= 1 ? -semi_z : -semi_z * square / (1 + std::sqrt(1 - square));
   });
 }
@@ -127,7 +128,7 @@ Surface pyramids_surface(const Grid2D& grid, Index count_x, Index count_y, doubl
   const double slope = checked_slope(angle);
   const double tile_x = grid.lx / static_cast<double>(count_x);
   const double tile_y = grid.ly / static_cast<double>(count_y);
-  // std::remainder: distance from the nearest axis.
+  // std::remainder gives the signed distance from the axis of the nearest pyramid.
   return surface_of(grid, "pyramids", true, [=](double x, double y) {
     const double from_axis_x = std::remainder(x - shift.x - tile_x / 2, tile_x);
     const double from_axis_y = std::remainder(y - shift.y - tile_y / 2, tile_y);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spectral moments of the modes that a grid carries, and checks that it carries a spectrum.
+// Spectral moments of the modes that a grid can represent, and the check that it can represent a
+// spectrum.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -39,11 +40,11 @@ void Spectrum::require_carried_by(const Grid2D& grid) const {
   const double cell = std::max(grid.dx(), grid.dy());
   std::ostringstream two_cells;
   two_cells << "must be at least two cells, " << 2 * cell
-            << " m; use more points or a longer short_cutoff";
+            << " m; use more points or a longer `short_cutoff`";
   require(shortest >= 2 * cell * (1 - 1e-9), "short_cutoff", shortest, two_cells.str());
   std::ostringstream size;
   size << "must fit into the cell, " << std::max(grid.lx, grid.ly)
-       << " m; use a larger cell or a shorter short_cutoff";
+       << " m; use a larger cell or a shorter `short_cutoff`";
   require(shortest <= std::max(grid.lx, grid.ly) * (1 + 1e-9), "short_cutoff", shortest,
           size.str());
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces of random modes by inverse transform: Gaussian ones, and those with phases alone random.
+// Surfaces of random Fourier modes by inverse transform: Gaussian modes, or modes of which only the
+// phases are random.
 #include "synthesis.hpp"
 
 #include <salebra/generators/filtered_noise.hpp>
@@ -14,7 +15,8 @@ Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t see
                  const Progress& progress, const Communicator& communicator) {
   const CarriedModes carried(grid, spectrum);
   const RowPartition rows(communicator, grid.nx);
-  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)), "a surface", communicator);
+  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)), "a surface",
+                 communicator);
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,
@@ -28,15 +30,17 @@ namespace salebra {
 
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
                        const Progress& progress, const Communicator& communicator) {
-  return {
-      grid,
-      detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress, communicator),
-      true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(), communicator};
+  return {grid,
+          detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress,
+                             communicator),
+          true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(),
+          communicator};
 }
 
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
                      const Progress& progress, const Communicator& communicator) {
-  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, communicator),
+  return {grid,
+          detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, communicator),
           true, "random phase, seed " + std::to_string(seed) + ", " + spectrum.description(),
           communicator};
 }

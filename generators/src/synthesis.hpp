@@ -8,9 +8,9 @@
 
 namespace salebra::detail {
 
-/// h(x) = Σ_q a(q) e^{iq·x} on the points of the grid with the amplitudes of RandomModes: the rows
-/// of this process. Same bits for every number of threads and processes. progress as of
-/// filtered_noise.
+/// Heights h(x) = Σ_q a(q) e^{iq·x} on the points x of the grid, with the amplitudes a(q) of
+/// RandomModes. Returns the rows of this process, with the same bits for every number of threads
+/// and processes. progress: reports like filtered_noise().
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
                  const Progress& progress, const Communicator& communicator);
 

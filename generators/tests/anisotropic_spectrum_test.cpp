@@ -31,13 +31,13 @@ double correlation(const Field& heights, Index a, Index b) {
 TEST_CASE("A stretched surface has the two correlation lengths along its angle",
           "[generators][anisotropic]") {
   const double unit = 0.01;
-  // tan(angle) = 3/4: both directions pass through lattice points.
+  // With tan(angle) = 3/4, both directions pass through lattice points.
   const Anisotropy anisotropy{.along = 6, .across = 2, .angle = std::atan2(3, 4)};
   const AnisotropicSpectrum spectrum(gaussian(1.0, unit), anisotropy);
   CHECK(anisotropy.peklenik() == 3);
   const Grid2D grid{300, 300, 1.5, 1.5};
   const Field heights = random_phase(grid, spectrum, 1).heights;
-  // Random phase has the correlation of the lattice; the zero mode missing lowers it by
+  // A random-phase surface has the correlation of the lattice; the missing zero mode lowers it by
   // π·6·2·(unit/1.5)² = 0.0017.
   for (const Index step : {1, 2, 3}) {
     const double distance = 5 * double(step) * grid.dx();
@@ -54,8 +54,8 @@ TEST_CASE("Moments of a stretched spectrum are its sums over a dense lattice",
   const AnisotropicSpectrum spectrum(gaussian(1.0, 0.02), anisotropy);
   const SpectralMoments continuum = spectrum.moments();
   const SpectralMoments lattice = spectrum.lattice_moments({256, 256, 1.0, 1.0});
-  // A Gaussian summed over a lattice as dense as this is its integral to machine precision, but for
-  // the zero mode in m0; the cut at e⁻³⁶ leaves 1e-13 in m4.
+  // On such a dense lattice the sum over a Gaussian equals its integral to machine precision,
+  // except for the zero mode in m0; the cut at e⁻³⁶ leaves 1e-13 in m4.
   CHECK(lattice.moment0 == Approx(continuum.moment0).epsilon(5e-3));
   CHECK(lattice.moment2_x == Approx(continuum.moment2_x).epsilon(1e-8));
   CHECK(lattice.moment2_y == Approx(continuum.moment2_y).epsilon(1e-8));
@@ -81,7 +81,7 @@ TEST_CASE("An anisotropic surface is real and has its power on the Nyquist lines
   const AnisotropicSpectrum spectrum(isotropic, {.along = 2, .across = 1, .angle = pi / 3});
   for (const Grid2D& grid : {Grid2D{16, 16, 1.0, 1.0}, Grid2D{17, 16, 1.0, 1.0}}) {
     const Field heights = random_phase(grid, spectrum, 3).heights;
-    // Were a line not Hermitian, part of its power would be lost in the real part.
+    // If a line were not Hermitian, part of its power would be lost in the imaginary part.
     CHECK(heights.square().mean() == Approx(spectrum.lattice_moments(grid).moment0).epsilon(1e-12));
   }
 }

@@ -17,7 +17,7 @@ TEST_CASE("A composite surface adds the powers of two independent ones",
   CHECK(sum.periodic);
   CHECK(sum.heights(3, 4) == first.heights(3, 4) + second.heights(3, 4));
   const double expected = first.heights.square().mean() + second.heights.square().mean();
-  // About 2000 modes on the plateau: a chance correlation of 2 %.
+  // With about 2000 modes on the plateau, chance correlates the surfaces by 2 %.
   CHECK(sum.heights.square().mean() == Approx(expected).epsilon(0.1));
   CHECK_THROWS_AS(composite_surface(first, paraboloid_surface({256, 255, 1.0, 1.0}, 1.0)),
                   InvalidInput);

@@ -15,7 +15,7 @@ TEST_CASE("A scaled surface has the rms value asked and zero mean", "[generators
   Surface waves = sinusoid_surface(grid, 1e-6, 5, 3);
   waves.heights += 7e-6;
   const Surface by_height = scale_to_rms(waves, Rms::height, 3e-6);
-  // Heights of 7e-6 round to 1e-21, and are scaled by six.
+  // Heights of 7e-6 are rounded to 1e-21 and then scaled by six.
   CHECK(std::abs(by_height.heights.mean()) < 1e-19);
   CHECK(std::sqrt(by_height.heights.square().mean()) == Approx(3e-6).epsilon(1e-13));
   // A cos·cos wave of amplitude A has ⟨|∇h|²⟩ = A²(q_x² + q_y²)/4.
@@ -35,7 +35,7 @@ TEST_CASE("Exact rms meets the continuum's value on a lattice that has another",
   const Surface plain = random_phase(grid, spectrum, 4);
   const double factor = surface.heights(3, 5) / plain.heights(3, 5);
   CHECK((surface.heights - factor * plain.heights).abs().maxCoeff() < 1e-13 * 1e-6);
-  // Another resolution has the same factor: the long waves stay the same.
+  // The factor is the same at another resolution, so the long waves stay the same.
   const Surface fine = exact_rms({128, 128, 1e-3, 1e-3}, spectrum, 4);
   CHECK(fine.heights(6, 10) == Approx(surface.heights(3, 5)).epsilon(1e-11));
 }
@@ -52,7 +52,7 @@ TEST_CASE("What has no rms value is not scaled", "[generators][exact_rms]") {
 }
 
 TEST_CASE("A wave of two cells has the slope π/dy of its amplitude", "[generators][exact_rms]") {
-  // Sampled at its crests it is its own conjugate, on axes and in the corner of the spectrum.
+  // A wave sampled at its crests is self-conjugate; test the axes and the corner of the spectrum.
   const Grid2D grid{8, 6, 4.0, 1.5};
   const bool along_x = GENERATE(false, true), along_y = GENERATE(false, true);
   if (!along_x && !along_y) return;

@@ -21,11 +21,11 @@ TEST_CASE("A surface of Fourier coefficients is the sum of its waves", "[modes]"
             (double(mode.i * a) / double(grid.nx) + double(mode.j * b) / double(grid.ny));
         const double wave =
             mode.amplitude.real() * std::cos(phase) - mode.amplitude.imag() * std::sin(phase);
-        sum += mode.i == 0 && mode.j == 0 ? wave : 2 * wave;  // with the opposite one
+        sum += mode.i == 0 && mode.j == 0 ? wave : 2 * wave;  // including the opposite wave
       }
       CHECK(surface.heights(a, b) == Approx(sum).margin(1e-14));
     }
-  // Naming the opposite waves too changes nothing; a finer grid has the same waves.
+  // Listing the opposite waves too changes nothing; a finer grid has the same waves.
   std::vector<FourierMode> both = modes;
   for (const FourierMode& mode : modes)
     both.push_back({-mode.i, -mode.j, std::conj(mode.amplitude)});

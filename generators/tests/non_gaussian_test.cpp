@@ -57,21 +57,21 @@ TEST_CASE("The normal quantile is the inverse of the normal distribution",
     CHECK(std::erfc(-x / std::sqrt(2.0)) / 2 == Approx(u).epsilon(1e-13 * (1 + x * x)));
   }
   CHECK(normal_quantile(0.5) == Approx(0).margin(1e-15));
-  // Published to ten figures: the 97.5 % point.
+  // The 97.5 % point is published to ten figures.
   CHECK(normal_quantile(0.975) == Approx(1.959963985).epsilon(1e-9));
   CHECK_THROWS_AS(normal_quantile(0.0), InvalidInput);
 }
 
 TEST_CASE("Johnson's curves have the skewness and kurtosis asked", "[generators][non_gaussian]") {
-  // S_U, S_B with one and two humps, both sides of the lognormal line, the line itself, the normal
-  // curve, negative skewness.
+  // Cases: S_U, S_B with one and two humps, both sides of the lognormal line, the line itself, the
+  // normal curve, negative skewness.
   const Shape asked = GENERATE(Shape{0, 5}, Shape{0, 1.8}, Shape{0, 1.2}, Shape{0, 3},
                                Shape{0, 2.999}, Shape{1, 4.83}, Shape{1, 3}, Shape{-1, 4},
                                Shape{-0.8, 3.5}, Shape{0.5, 3}, Shape{0.3, 3.16029}, Shape{1.5, 8});
   CAPTURE(asked.skewness, asked.kurtosis);
   const Shape found = shape_of(quantiles(johnson_heights(asked.skewness, asked.kurtosis), 100000));
-  // 1e5 quantiles leave out tails beyond 4.4 deviations, which hold up to 1 % of the fourth moment
-  // of the heaviest curve here.
+  // 1e5 quantiles omit tails beyond 4.4 standard deviations, up to 1 % of the fourth moment of the
+  // heaviest curve here.
   CHECK(found.skewness == Approx(asked.skewness).epsilon(5e-3).margin(1e-6));
   CHECK(found.kurtosis == Approx(asked.kurtosis).epsilon(0.015));
 }
@@ -87,8 +87,8 @@ TEST_CASE("No distribution has less kurtosis than its skewness needs",
 }
 
 TEST_CASE("Weibull heights have the moments of their shape", "[generators][non_gaussian]") {
-  // Shape 1 is the exponential distribution (skewness 2, kurtosis 9), shape 2 Rayleigh's (0.6311,
-  // 3.2451).
+  // Shape 1 is the exponential distribution (skewness 2, kurtosis 9); shape 2 is Rayleigh's
+  // (0.6311, 3.2451).
   const Shape exponential = shape_of(quantiles(weibull_heights(1), 200000));
   CHECK(exponential.skewness == Approx(2).epsilon(2e-3));
   CHECK(exponential.kurtosis == Approx(9).epsilon(1e-2));
@@ -119,7 +119,7 @@ TEST_CASE("A non-Gaussian surface has the distribution exactly and the spectrum 
   CHECK(found.skewness == Approx(expected.skewness).margin(1e-9));
   CHECK(found.kurtosis == Approx(expected.kurtosis).epsilon(1e-9));
 
-  // Another route compares amplitudes with those of the random-phase surface.
+  // Check independently by comparing amplitudes with those of the random-phase surface.
   const FourierCoefficients a(result.surface), target(random_phase(grid, spectrum, 5));
   double difference = 0, total = 0;
   for (Index i = 0; i < grid.nx; ++i)
@@ -145,7 +145,7 @@ TEST_CASE("A non-Gaussian surface can have its spectrum exactly", "[generators][
       REQUIRE(std::abs(a(i, j)) == Approx(std::abs(target(i, j))).epsilon(1e-11).margin(1e-20));
   const Shape expected = shape_of(quantiles(distribution, int(grid.points())));
   const Shape found = shape_of(sorted(result.surface.heights));
-  // Heights are off by the mismatch, a few per cent of their rms value.
+  // Heights deviate by the mismatch, a few per cent of their rms value.
   CHECK(found.skewness == Approx(expected.skewness).margin(0.1));
   CHECK(found.kurtosis == Approx(expected.kurtosis).epsilon(0.1));
 }
@@ -165,8 +165,7 @@ TEST_CASE(
   CHECK(stopped.termination == Termination::interrupted);
   CHECK(stopped.iterations == 2);
   CHECK_FALSE(stopped.converged());
-  // The surface is the one that two iterations make, at whichever report of the third the stop
-  // came.
+  // A stop at any report of the third iteration returns the surface of two iterations.
   const Field two =
       non_gaussian(grid, spectrum, weibull_heights(2), 1, {.max_iterations = 2}).surface.heights;
   CHECK((stopped.surface.heights == two).all());
@@ -185,7 +184,8 @@ TEST_CASE(
 
 TEST_CASE("Of all its iterates a non-Gaussian surface is the one nearest to the spectrum",
           "[generators][non-gaussian]") {
-  // Ten small cells, each to where no step gains any more: the last step of some goes astray.
+  // Ten small cells, each iterated until no step improves the mismatch; the last step of some makes
+  // it worse.
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 0.5, .short_cutoff = 0.25, .rms_height = 1});
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -194,7 +194,7 @@ TEST_CASE("Of all its iterates a non-Gaussian surface is the one nearest to the 
     const NonGaussianSurface found = non_gaussian(
         {16, 16, 1, 1}, spectrum, weibull_heights(1.2), seed,
         {.max_iterations = 200, .tolerance = 0, .on_progress = [&](const ProgressReport& report) {
-           // Before the first step there is no mismatch yet.
+           // Before the first step there is no mismatch.
            if (report.step > 0) least = std::min(least, report.residual);
            return true;
          }});

@@ -20,7 +20,7 @@ double mean_square(const Profile& profile) {
   return sum / double(profile.heights.size());
 }
 
-// One Fourier coefficient by its definition.
+// One Fourier coefficient, computed by its definition.
 std::complex<double> coefficient(const Profile& profile, Index wave) {
   const double n = double(profile.heights.size());
   std::complex<double> sum = 0;
@@ -56,7 +56,7 @@ TEST_CASE("The moments of a profile's spectrum are its sums over a long line",
   const SpectralMoments continuum = spectrum.moments();
   CHECK(continuum.rms_slope() == Approx(0.1).epsilon(1e-13));
   const SpectralMoments line = spectrum.lattice_moments(160000, 2000.0);
-  // A sum that starts and ends with whole terms at steps of 1e-3 of the narrowest feature.
+  // The sum counts its end terms in full; its steps are 1e-3 of the narrowest feature.
   CHECK(line.moment0 == Approx(continuum.moment0).epsilon(2e-3));
   CHECK(line.moment2_x == Approx(continuum.moment2_x).epsilon(2e-3));
   CHECK(line.moment4_x == Approx(continuum.moment4_x).epsilon(2e-3));
@@ -92,9 +92,9 @@ TEST_CASE("A line that does not carry its spectrum is refused", "[generators][pr
 }
 
 TEST_CASE("A profile has nothing in common with the surface of its seed", "[generators][profile]") {
-  // The waves along x of a surface are those of its mean over y. Were they drawn from the same
-  // numbers, the two would rise and fall together; of chance alone the coefficient of a dozen equal
-  // waves has a standard deviation of 1/√24 = 0.2, its mean over 8 seeds of 0.07.
+  // The waves along x of a surface are those of its mean over y. If surface and profile used the
+  // same random numbers, these waves would be correlated. For a dozen equal waves, the chance
+  // correlation has a standard deviation of 1/√24 = 0.2, and its mean over 8 seeds 0.07.
   const SelfAffineParameters parameters{
       .long_cutoff = 1, .rolloff = 1.0 / 12, .short_cutoff = 1.0 / 12, .rms_height = 1};
   const Grid2D grid{64, 64, 1, 1};

@@ -23,14 +23,14 @@ TEST_CASE("A self-affine spectrum given as a function makes the same surface",
       {.hurst = 0.6, .long_cutoff = 1.0, .rolloff = 0.3, .short_cutoff = 0.05, .rms_height = 1.0});
   const FunctionSpectrum spectrum([&](double q) { return reference.radial_density(q); }, 2 * pi,
                                   2 * pi / 0.05, "test");
-  // The kink at the roll-off lies inside a panel; halving it 30 times leaves no more than the
+  // The kink at the roll-off lies inside a panel; after 30 halvings its error is within the
   // tolerance.
   CHECK(spectrum.moments().moment0 == Approx(reference.moments().moment0).epsilon(1e-9));
   CHECK(spectrum.moments().moment4_x == Approx(reference.moments().moment4_x).epsilon(1e-9));
   const Grid2D grid{48, 50, 1.0, 1.0};
   const Field difference =
       filtered_noise(grid, spectrum, 3).heights - filtered_noise(grid, reference, 3).heights;
-  // Two ways to take a power: 1e-14 of each amplitude.
+  // Both compute the same power in different ways, with differences of 1e-14 of each amplitude.
   CHECK(difference.abs().maxCoeff() < 1e-12);
 }
 
@@ -59,8 +59,9 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
   CHECK(moments.moment2_x == Approx(2 * rms * rms / (length * length)).epsilon(1e-10));
   CHECK(moments.moment4_x == Approx(12 * rms * rms / std::pow(length, 4)).epsilon(1e-9));
   CHECK(moments.nayak() == Approx(3).epsilon(1e-9));
-  // Random phase has the autocorrelation of the lattice exactly, here that of the plane: the cell
-  // is 50 ℓ wide. Only the zero mode is missing, a constant h²·π(ℓ/L)² = 1e-3 h².
+  // A random-phase surface has exactly the autocorrelation of the lattice. It equals that of the
+  // plane, because the cell is 50 ℓ wide, except for the missing zero mode, the constant
+  // h²·π(ℓ/L)² = 1e-3 h².
   const Grid2D grid{512, 512, 1.0, 1.0};
   const Field heights = random_phase(grid, spectrum, 2).heights;
   for (const Index shift : {0, 5, 10, 30}) {
@@ -74,7 +75,7 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
 
 TEST_CASE("Densities below the least normal number are integrated in the usual time",
           "[generators][radial]") {
-  // A tolerance of 0 would halve every panel to the end of its depth, 2³⁰ times.
+  // A tolerance of 0 would halve every panel to the maximum depth, 2³⁰ times.
   const FunctionSpectrum spectrum([](double q) { return 1e-320 * std::exp(-q * q); }, 0, 6,
                                   "faint");
   CHECK(spectrum.moments().moment0 < std::numeric_limits<double>::min());
@@ -86,7 +87,7 @@ TEST_CASE("Exponential correlation keeps its rms height for every cut-off",
   const double short_cutoff = GENERATE(1e-2, 1e-4);
   const FunctionSpectrum spectrum = exponential_correlation_spectrum(1e-6, 0.02, short_cutoff);
   CHECK(spectrum.moments().rms_height() == Approx(1e-6).epsilon(1e-9));
-  // Far above the roll-off it falls like q⁻³, the self-affine law of H = 1/2.
+  // Far above the roll-off the density falls like q⁻³, the self-affine law with H = 1/2.
   CHECK(spectrum.radial_density(500) / spectrum.radial_density(250) ==
         Approx(1.0 / 8).epsilon(0.05));
 }

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Even, odd, mixed and rectangular, with cells that are not square in the last two. The shortest
-// wavelength is two cells of the coarser axis, so that a Nyquist line carries power.
+// Even, odd, mixed and rectangular grids; the last two have non-square cells. The shortest
+// wavelength is two cells of the coarser axis, which gives a Nyquist line power.
 struct Case {
   Grid2D grid;
   double short_cutoff;
@@ -74,8 +74,8 @@ TEST_CASE("Random phase gives every mode its target power", "[generators][random
     double total = spectrum.lattice_moments(c.grid).moment0;
     for_each_mode(c.grid, [&](Index i, Index j) {
       const double power = std::norm(a(i, j)), target = target_power(spectrum, c.grid, i, j);
-      // Rounding of two transforms, a few 1e-16 of the rms height, against amplitudes not below
-      // 1e-2 of it.
+      // Two transforms have rounding errors of a few 1e-16 of the rms height; compared amplitudes
+      // are at least 1e-2 of it.
       if (target > 0)
         CHECK(power == Approx(target).epsilon(1e-12));
       else
@@ -83,7 +83,7 @@ TEST_CASE("Random phase gives every mode its target power", "[generators][random
       if (target > 0) ++modes_with_power[line_of(c.grid, i, j)];
     });
   }
-  // What is compared is there: no case passes for want of modes.
+  // Make sure that every case contains modes to compare.
   CHECK(modes_with_power["ky = 0"] > 0);
   CHECK(modes_with_power["kx = 0"] > 0);
   CHECK(modes_with_power["bulk"] > 0);
@@ -125,7 +125,7 @@ TEST_CASE("Filtered noise has its target power in the mean on every line of mode
       const double target = target_power(spectrum, c.grid, i, j);
       if (target == 0) return;
       // Power over target is χ²₂/2 for a complex Gaussian amplitude (variance 1) and χ²₁ for a real
-      // one (variance 2). Conjugates are one number, so a pair of them adds 2 to the sum and 4 to
+      // one (variance 2). A conjugate pair is one random number, so it adds 2 to the sum and 4 to
       // its variance.
       const std::string name = line_of(c.grid, i, j);
       Line& line = lines[name];
@@ -135,8 +135,8 @@ TEST_CASE("Filtered noise has its target power in the mean on every line of mode
   }
   for (const auto& [name, line] : lines) {
     CAPTURE(c.grid.nx, c.grid.ny, name, line.sum, line.variance);
-    // Three standard errors. Half or double the power on a line of n modes is off by √(200 n/8) of
-    // them or more, 5 for a single mode.
+    // Three standard errors. With half or double the power, a line of n modes would be off by at
+    // least √(200 n/8) standard errors, 5 for a single mode.
     CHECK(std::abs(line.sum) < 3 * std::sqrt(line.variance));
   }
 }
@@ -149,8 +149,8 @@ TEST_CASE("Filtered noise and random phase of one seed have the same phases",
   const FourierCoefficients fixed(random_phase(grid, spectrum, 3));
   for_each_mode(grid, [&](Index i, Index j) {
     if (target_power(spectrum, grid, i, j) > 0)
-      // A small Gaussian amplitude has a large relative rounding error; 1e-11 allows amplitudes
-      // down to 1e-5.
+      // The relative rounding error grows for small amplitudes; 1e-11 suffices for amplitudes down
+      // to 1e-5.
       CHECK(std::abs(std::arg(noise(i, j) / fixed(i, j))) < 1e-11);
   });
 }
@@ -186,11 +186,11 @@ TEST_CASE("A generator can be stopped at any of its reports, and reports change 
         CHECK_THROWS_AS(
             make(grid, spectrum, 3, [&](const ProgressReport&) { return ++reports < report; }, {}),
             Interrupted);
-        // Nobody is asked again who said stop.
+        // After a stop, the callback is not called again.
         CHECK(reports == report);
       };
       stop_at(1);
-      // How many reports there are depends on which thread gets which rows.
+      // The number of reports depends on the distribution of rows over threads.
       if (threads == 1) stop_at(fractions.size());
     }
   }
@@ -220,7 +220,7 @@ TEST_CASE("A generator that is stopped leaves its work undone", "[generators]") 
   };
   const auto stop = [](const ProgressReport&) { return false; };
   const int all = count([&] { filtered_noise(grid, spectrum, 1); });
-  // It is asked after each 16 of 48 columns.
+  // A report follows every 16 of 48 columns.
   CHECK(count([&] { CHECK_THROWS_AS(filtered_noise(grid, spectrum, 1, stop), Interrupted); }) <
         all / 2);
   const int sums = count([&] { spectrum.lattice_moments(grid); });

@@ -52,7 +52,7 @@ TEST_CASE("Refining the grid keeps the heights at common points", "[generators][
     for (Index y = 0; y < pair.coarse.ny; ++y)
       worst = std::max(worst, std::abs(coarse_heights(x, y) -
                                        fine_heights(x * pair.factor_x, y * pair.factor_y)));
-  // Two transforms make the same sum, each exact to a few 1e-16 of the rms height.
+  // Two transforms compute the same sum, each to a few 1e-16 of the rms height.
   CHECK(worst < 1e-13 * rms(coarse_heights));
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("Extending the spectrum adds short waves and leaves the long ones",
   const Grid2D grid{128, 128, 1.0, 1.0};
   SelfAffineParameters parameters{.rolloff = 0.25, .short_cutoff = 1.0 / 16, .rms_height = 1.0};
   const SelfAffineSpectrum narrow(parameters);
-  // The rms height that the longer spectrum needs for the same plateau.
+  // The rms height with which the wider spectrum has the same plateau.
   parameters.short_cutoff = 1.0 / 64;
   const double trial = SelfAffineSpectrum(parameters).plateau();
   parameters.rms_height = std::sqrt(narrow.plateau() / trial);
@@ -70,8 +70,8 @@ TEST_CASE("Extending the spectrum adds short waves and leaves the long ones",
   const Field difference =
       filtered_noise(grid, wide, 4).heights - filtered_noise(grid, narrow, 4).heights;
   const double added = wide.lattice_moments(grid).moment0 - narrow.lattice_moments(grid).moment0;
-  // A Gaussian band of some 12000 modes: its mean square scatters by √(2/12000), 1.3 %, less where
-  // the power gathers in few modes.
+  // The added Gaussian band has some 12000 modes, so its mean square scatters by √(2/12000), 1.3 %,
+  // and more because a few modes hold most of the power.
   CHECK(difference.square().mean() == Approx(added).epsilon(0.1));
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("Seeds make different surfaces, 0 and 1 and the upper half of the bits
   for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{1} << 32}) {
     const Field other = filtered_noise(grid, spectrum, seed).heights;
     const double correlation = (first * other).mean() / (rms(first) * rms(other));
-    // About 60 independent modes carry most of the power: a correlation by chance is about 1/√60.
+    // About 60 independent modes carry most of the power, so a chance correlation is about 1/√60.
     CHECK(std::abs(correlation) < 0.5);
   }
 }

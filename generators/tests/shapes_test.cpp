@@ -28,7 +28,7 @@ TEST_CASE("Bodies have their apex at height zero in the middle of the grid",
     CHECK(surface.heights(20, 15) == 0);
     CHECK(surface.heights.maxCoeff() == 0);
     CHECK(surface.heights(0, 0) < 0);
-    // Mirror symmetry about the axis, x and y apart.
+    // Mirror symmetry about the axis, separately for x and y.
     CHECK(surface.heights(13, 15) == Approx(surface.heights(27, 15)).epsilon(1e-12));
     CHECK(surface.heights(20, 11) == Approx(surface.heights(20, 19)).epsilon(1e-12));
   }
@@ -48,7 +48,7 @@ TEST_CASE("Bodies have the curvature and the slope asked", "[generators][shapes]
   const Surface elliptic = elliptic_paraboloid_surface(grid, 0.5, 0.25);
   CHECK(curvature_x(elliptic) == Approx(-2).epsilon(1e-12));
   CHECK(curvature_y(elliptic) == Approx(-4).epsilon(1e-12));
-  // A sphere is its osculating paraboloid up to (r/2R)² in relative terms, here dx².
+  // A sphere deviates from its osculating paraboloid by a fraction (r/2R)², here dx².
   const Surface sphere = sphere_surface(grid, 0.5);
   CHECK(curvature_x(sphere) == Approx(-2).epsilon(2 * dx * dx));
   // An ellipsoid has the radii a²/c and b²/c at its apex.
@@ -67,7 +67,8 @@ TEST_CASE("Punches are flat up to their radius", "[generators][shapes]") {
   const Grid2D fine{400, 400, 1.0, 1.0};
   const Surface sharp = flat_punch_surface(fine, 0.3, 1e-3, off_grid_center(fine));
   const double area = double((sharp.heights == 0).count()) * fine.cell_area();
-  // Lattice points in a disc of 120 cells' radius: the error is about 120^{2/3} cells of 45000.
+  // Number of lattice points in a disc with a radius of 120 cells: the error is about 120^{2/3} of
+  // 45000 cells.
   CHECK(area == Approx(pi * 0.09).epsilon(1e-3));
   CHECK(sharp.heights.minCoeff() == -1e-3);
   const Surface rounded = rounded_punch_surface(fine, 0.3, 2.0);
@@ -80,7 +81,7 @@ TEST_CASE("A body follows its centre off the grid", "[generators][shapes]") {
   CHECK((center.x - middle.x) / grid.dx() == Approx(0.31));
   CHECK((center.y - middle.y) / grid.dy() == Approx(0.17));
   const Surface moved = paraboloid_surface(grid, 0.5, center);
-  // The vertex of the parabola through three points of the row.
+  // Find the vertex of the parabola through three points of the row.
   const double left = moved.heights(19, 15), right = moved.heights(21, 15);
   const double curvature = left - 2 * moved.heights(20, 15) + right;
   CHECK((left - right) / (2 * curvature) == Approx(0.31).epsilon(1e-9));

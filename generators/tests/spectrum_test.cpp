@@ -14,8 +14,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// 2π∫ q^{order+1} C dq by Simpson's rule in ln q, from limit to limit so that no panel crosses a
-// kink.
+// 2π∫ q^{order+1} C dq by Simpson's rule in ln q, separately between the limits because no panel
+// may cross a kink.
 double radial_integral(const Spectrum& spectrum, int order, double from, double to) {
   const int panels = 2000;
   const double step = std::log(to / from) / panels;
@@ -49,8 +49,8 @@ TEST_CASE("Moments in closed form are the integrals over the spectrum", "[genera
            radial_integral(spectrum, order, q_rolloff, q_short);
   };
   const SpectralMoments moments = spectrum.moments();
-  // Simpson's rule on 2000 panels over less than five in ln q errs by (5/2000)⁴·4⁴/180, below
-  // 1e-10.
+  // The error of Simpson's rule with 2000 panels over less than five in ln q is (5/2000)⁴·4⁴/180,
+  // below 1e-10.
   CHECK(moments.moment0 == Approx(integral(0)).epsilon(1e-9));
   CHECK(moments.moment2() == Approx(integral(2) / 2).epsilon(1e-9));
   CHECK(moments.moment4() == Approx(integral(4) * 3 / 8).epsilon(1e-9));
@@ -78,8 +78,8 @@ TEST_CASE("Without a long cut-off the plateau reaches down to every wave of the 
   const SelfAffineSpectrum spectrum({.rolloff = 1e-4, .short_cutoff = 1e-5, .rms_height = 1e-6});
   CHECK(spectrum.density(1e-3, 0) == spectrum.plateau());
   const Grid2D grid{256, 256, 8e-4, 8e-4};
-  // The lattice misses only the zero mode, one of the π 8² on the plateau; the edge of a disc of
-  // radius 8 makes 1 % noise.
+  // The lattice lacks only the zero mode, one of the π 8² modes on the plateau. The discrete edge
+  // of a disc of radius 8 adds 1 % of noise.
   CHECK(spectrum.lattice_moments(grid).rms_height() == Approx(1e-6).epsilon(0.01));
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("The lattice sum tends to the continuum as the cell grows", "[generato
   const double length = 64e-4;
   const Grid2D grid{768, 640, length, length};
   const SpectralMoments lattice = spectrum.lattice_moments(grid), continuum = spectrum.moments();
-  // Modes in a ring of radius 32 … 320: lattice points on its rim make an error of about
+  // Modes fill a ring of radius 32 … 320. The lattice points on its rim cause an error of about
   // 32^{2/3}/(π 32²) < 1 %.
   CHECK(lattice.moment0 == Approx(continuum.moment0).epsilon(0.01));
   CHECK(lattice.moment2_x == Approx(continuum.moment2_x).epsilon(0.01));
@@ -99,7 +99,7 @@ TEST_CASE("The lattice sum tends to the continuum as the cell grows", "[generato
 
 TEST_CASE("Waves on a cut-off belong to the spectrum whatever the rounding",
           "[generators][spectrum]") {
-  // q = 2πi/L and 2π/λ round differently; 0.1 and 0.3 have no finite binary form.
+  // q = 2πi/L and 2π/λ round differently; 0.1 and 0.3 have no finite binary representation.
   for (const double length : {0.1, 0.3, 7e-6, 1.7e-3})
     for (Index waves = 3; waves < 40; ++waves) {
       const SelfAffineSpectrum spectrum({.long_cutoff = length / 3,
@@ -117,7 +117,7 @@ TEST_CASE("The lattice sum does not depend on a resolution that carries the spec
   const SelfAffineSpectrum spectrum({.rolloff = 1e-3, .short_cutoff = 5e-5, .rms_height = 1e-6});
   const auto coarse = spectrum.lattice_moments({64, 50, 1e-3, 7e-4});
   const auto fine = spectrum.lattice_moments({125, 128, 1e-3, 7e-4});
-  // Both sum the same terms; only the Nyquist index and the grouping into slabs differ.
+  // Both sums have the same terms; only the Nyquist index and the grouping into slabs differ.
   CHECK(coarse.moment0 == Approx(fine.moment0).epsilon(1e-13));
   CHECK(coarse.moment4_x == Approx(fine.moment4_x).epsilon(1e-13));
 }
@@ -144,11 +144,11 @@ TEST_CASE("Bad spectra are refused by name", "[generators][spectrum]") {
              Contains("short_cutoff: 0.0003 must"));
   CHECK_THAT(message_of([](P& p) { p.short_cutoff = 0; }), Contains("short_cutoff: 0 must"));
   CHECK_THAT(message_of([](P& p) { p.long_cutoff = -1.0; }), Contains("long_cutoff: -1 must"));
-  CHECK_THAT(message_of([](P& p) { p.rms_slope = 0.1; }), Contains("rms_slope; give one"));
-  CHECK_THAT(message_of([](P& p) { p.rms_height.reset(); }), Contains("rms_slope; give one"));
+  CHECK_THAT(message_of([](P& p) { p.rms_slope = 0.1; }), Contains("`rms_slope`; give one"));
+  CHECK_THAT(message_of([](P& p) { p.rms_height.reset(); }), Contains("`rms_slope`; give one"));
   CHECK_THAT(message_of([](P& p) { p.rms_height = -1e-6; }), Contains("rms_height: -1e-06 must"));
   CHECK_THAT(message_of([](P& p) { p.long_cutoff.reset(), p.rolloff.reset(); }),
-             Contains("rolloff: none"));
+             Contains("rolloff: not given"));
 }
 
 TEST_CASE("A grid that would fold the spectrum is refused", "[generators][spectrum]") {
@@ -168,17 +168,17 @@ TEST_CASE("The forecast warns where the grid makes something else of the spectru
   const Forecast of_coarse = forecast({512, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_coarse.warnings.size() == 1);
   CHECK_THAT(of_coarse.warnings[0], Contains("has 5.12 cells"));
-  // The longer side of oblong cells counts.
+  // For oblong cells the longer side is relevant.
   const Forecast of_oblong = forecast({1024, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_oblong.warnings.size() == 1);
   CHECK_THAT(of_oblong.warnings[0], Contains("has 5.12 cells"));
-  // With the long cut-off at the size of the cell, the continuum leaves out a disc of π modes, the
-  // lattice one.
+  // With the long cut-off at the size of the cell, the continuum omits a disc of π modes, but the
+  // lattice only one mode.
   const SelfAffineSpectrum few_waves(
       {.long_cutoff = 1e-4, .short_cutoff = 1e-5, .rms_height = 1e-6});
   const Forecast of_few = forecast({128, 128, 1e-4, 1e-4}, few_waves);
   REQUIRE(of_few.warnings.size() == 2);
-  CHECK_THAT(of_few.warnings[0], Contains("times the rms height asked"));
+  CHECK_THAT(of_few.warnings[0], Contains("times the requested rms height"));
   CHECK_THAT(of_few.warnings[1], Contains("scatters by"));
   CHECK(of_few.memory == generation_memory({128, 128, 1e-4, 1e-4}));
 }
@@ -195,8 +195,8 @@ TEST_CASE("The forecast knows the scatter of filtered noise", "[generators][fore
     mean += ratio / seeds;
     square += ratio * ratio / seeds;
   }
-  // The mean square scatters twice as much as its root. A standard deviation from 400 samples is
-  // itself good to 1/√800, 3.5 %, more for the heavy tail of a sum of a dozen exponentials.
+  // The mean square scatters twice as much as its root. A standard deviation from 400 samples has
+  // an error of 1/√800, 3.5 %, and more for the heavy tail of a sum of a dozen exponentials.
   const double scatter = 2 * forecast(grid, spectrum).rms_height_scatter;
   CHECK(std::abs(mean - 1) < 3 * scatter / std::sqrt(seeds));
   CHECK(std::sqrt(square - mean * mean) == Approx(scatter).epsilon(0.15));

@@ -30,7 +30,7 @@ namespace {
 using Make =
     std::function<Surface(const Grid2D&, const Spectrum&, const Progress&, const Communicator&)>;
 
-// Every way to a generated surface.
+// All generators of a surface.
 std::vector<Make> ways() {
   constexpr std::uint64_t seed = 12;
   const auto noise = [](const Grid2D& grid, const Spectrum& spectrum, const Progress& told,
@@ -54,7 +54,8 @@ std::vector<Make> ways() {
   return all;
 }
 
-// Cells of 1/points, the shortest wave two of the longer ones, so that a Nyquist line has power.
+// Cells have the size 1/points. The shortest wave spans two of the longer cells, which gives a
+// Nyquist line power.
 std::shared_ptr<const Spectrum> spectrum_of(int kind, const Grid2D& grid) {
   const double shortest = 2 * std::max(grid.dx(), grid.dy()),
                highest = 2 * std::numbers::pi / shortest;
@@ -128,9 +129,9 @@ TEST_CASE("Moments of the lattice have the bits of one process", "[generators][s
 TEST_CASE("The rms slope of the modes is that of the surface", "[generators][exact_rms]") {
   const Grid2D grid = GENERATE(Grid2D{64, 64, 1, 1}, Grid2D{96, 50, 1.5, 1}, Grid2D{101, 64, 1, 1});
   const auto spectrum = spectrum_of(GENERATE(0, 1, 2), grid);
-  // exact_rms scales by the sum over the modes, scale_to_rms by transforms of the heights. The
-  // waves are at least two cells long, so that the slope of rounding errors, π·eps of the heights
-  // over a cell, is below 1e-12 of the slope.
+  // exact_rms scales by the sum over the modes, scale_to_rms by transforms of the heights. Waves
+  // span at least two cells, so rounding errors of the heights, whose slope is π·eps per cell, are
+  // below 1e-12 of the slope.
   const Surface by_modes = exact_rms(grid, *spectrum, 3, Rms::slope);
   const Surface by_heights =
       scale_to_rms(random_phase(grid, *spectrum, 3), Rms::slope, spectrum->moments().rms_slope());
@@ -170,7 +171,7 @@ TEST_CASE("What one process refuses, all refuse", "[generators][share]") {
     });
     return refused == 4;
   };
-  // An undefined point in the rows of one process.
+  // One process has an undefined point in its rows.
   for (const Rms which : {Rms::height, Rms::slope})
     CHECK(all_refuse(
         [&](const Communicator& together) {
@@ -189,7 +190,7 @@ TEST_CASE("What one process refuses, all refuse", "[generators][share]") {
         filtered_noise({16, 16, 1, 1}, *spectrum, 1, {}, together);
       },
       "short_cutoff"));
-  // What needs the whole surface says so.
+  // Functions that need the whole surface refuse a distributed one.
   CHECK(all_refuse(
       [&](const Communicator& together) {
         const Surface mine = filtered_noise(grid, *spectrum, 1, {}, together);
@@ -208,7 +209,7 @@ TEST_CASE("The memory of a generator is that of one process", "[generators][shar
   const double alone = double(generation_memory(grid));
   std::atomic<int> right = 0;
   run_ranks(4, [&](const Communicator& together) {
-    // A quarter of the heights, and as much for a batch of columns.
+    // A quarter of the heights, and up to as much again for a batch of columns.
     const double memory = double(generation_memory(grid, together));
     right += memory > 0.25 * alone && memory < 0.6 * alone;
   });

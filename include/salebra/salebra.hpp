@@ -18,6 +18,7 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <salebra/io/read_surface.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Statistics of rough-surface contact and its relaxation damping.
 
-Surfaces are generated or read, pressed by boundary elements and by Greenwood–Williamson's model, and what they lose when they
-oscillate follows from the force curve: Popov, Popov and Pohrt, "Relaxation damping in oscillating contacts",
-doi:10.1038/srep16189. Every number comes from the C++ library salebra; names of functions and keywords are its names, units are
-SI, and arrays are heights[ix, iy], x first.
+The package generates or reads surfaces, presses them by boundary elements and by the Greenwood–Williamson model, and computes the energy
+that they lose when they oscillate: Popov, Popov and Pohrt, "Relaxation damping in oscillating contacts", doi:10.1038/srep16189. The C++
+library salebra computes every number; functions and keywords have its names, units are SI, and arrays are heights[ix, iy], x first.
 
-The names are sorted into submodules: `surfaces`, `generators`, `contact`, `models`, `damping`, `studies`, `files`, `session` and
-`closed_form`. All of them but the formulas are attributes of `salebra` itself too; dir(salebra) lists the submodules and what most
-scripts need.
+Submodules sort the names: `surfaces`, `generators`, `contact`, `models`, `damping`, `studies`, `files`, `session` and `closed_form`. All
+names except the formulas are attributes of `salebra` too. dir(salebra) lists the submodules and the names that most scripts need.
 """
 
 import difflib as _difflib
+import functools as _functools
 import typing as _typing
 
 from . import _waiting as _waiting  # isort: skip  (before anything that loads the extension)
@@ -57,13 +56,15 @@ def __dir__() -> list[str]:
     return sorted([*modules, *_COMMON, "__version__", "__doc__", "__name__", "__file__", "__path__"])
 
 
-_FORMER = {"LossWithSlip": "Loss", "StudyAnswer": "StudySolution", "SurfaceDamping": "DampingResult"}
+if not _typing.TYPE_CHECKING:  # type checkers would accept every name
 
-if not _typing.TYPE_CHECKING:  # type checkers, which know this name and no alias, would take it for every name
-
-    def __getattr__(name: str) -> object:
-        if name in _FORMER:
-            raise AttributeError(f"salebra.{name} is now salebra.{_FORMER[name]}")
-        names = [] if name.startswith("_") else [key for key in globals() if not key.startswith("_")]
+    def _missing(module: str, present: dict[str, object], name: str) -> object:
+        if name in _calls.FORMER and _calls.FORMER[name] in present:
+            raise AttributeError(f"{module}.{name} is now {module}.{_calls.FORMER[name]}")
+        names = [] if name.startswith("_") else [key for key in present if not key.startswith("_")]
         close = _difflib.get_close_matches(name, names, 1, 0.7)
-        raise AttributeError(f"module 'salebra' has no attribute '{name}'" + (f"; did you mean {close[0]}?" if close else ""))
+        raise AttributeError(f"module '{module}' has no attribute '{name}'" + (f"; did you mean {close[0]}?" if close else ""))
+
+    __getattr__ = _functools.partial(_missing, __name__, globals())
+    for _module in (closed_form, contact, damping, files, generators, models, session, studies, surfaces):
+        _module.__getattr__ = _functools.partial(_missing, _module.__name__, vars(_module))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program `salebra`, which lies in this package: `python -m salebra statistics scan.txt`. `python -m salebra import FILE OUT.h5` is
+"""Runs the program `salebra` of this package: `python -m salebra statistics scan.txt`. `python -m salebra import FILE OUT.h5` runs
 `salebra-import FILE OUT.h5`."""
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What happens around every call of the extension: its signature for `inspect`, texts with units, errors that name the argument,
-warnings of what did not converge, and how objects without columns are pickled.
+"""Wraps the functions and the classes of the extension.
 
-The extension is called first and as it is. Only where it refuses its arguments does this file look at them: texts with units become
-numbers, and what is left is explained.
+A wrapper calls the extension with the arguments as they are. If the extension refuses them, the wrapper converts texts with units to
+numbers and calls it again, or raises an error that names the wrong argument. A wrapper also has a signature for `inspect`, warns about
+results that did not converge, and makes objects without a description picklable.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ import difflib
 import errno
 import functools
 import inspect
-import math
 import os
 import re
 import warnings
@@ -21,65 +20,98 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _core
+from . import _core, _show
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
 
 class ConvergenceWarning(UserWarning):
-    """A solver ended before it reached its tolerance: the numbers of its result are not an answer."""
+    """A solver ended before it reached its tolerance: do not use the numbers of its result."""
 
 
 class MissingFile(_core.InvalidInput, FileNotFoundError):
-    """A file that is to be read, or the folder of one that is to be written, is not there. Also an InvalidInput."""
+    """A file to read, or the folder of a file to write, does not exist. Also an InvalidInput."""
 
     def __str__(self) -> str:
-        # An OSError with a filename puts its number and that name around the text, which names the file already.
+        # An OSError with a filename would add its number and the name to a text that has the name already.
         return str(self.args[0])
 
 
 def refusal(field: str, value: str, demand: str) -> _core.InvalidInput:
-    """As those of the library are made: "field: value constraint; remedy", and the four as attributes."""
+    """An InvalidInput like those of the library: "field: value constraint; remedy", and the four as attributes."""
     constraint, _, remedy = demand.partition("; ")
     error = _core.InvalidInput(f"{field}: {value} {demand}" if value else f"{field}: {demand}")
     error.field, error.value, error.constraint, error.remedy = field, value, constraint, remedy
     return error
 
 
-# Arguments whose unit is that of a quantity with another name.
-_LIKE = {
-    "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure",
-    "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
-    "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
-    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius", "resolution": "size_x", "shortest_wavelength": "size_x", "noise": "rms_height",
-    "resistivity_1": "resistivity", "resistivity_2": "resistivity", "conductivity_1": "conductivity", "conductivity_2": "conductivity",
-    "work": "work_of_adhesion", "power": "moment0", "densities": "psd",
-    "reference_force": "force", "min_force": "force", "first_load": "force",
-    "nominal_pressure": "pressure", "max_pressure": "pressure", "mean_contact_pressure": "pressure", "pressure_window": "pressure",
-    "loaded_size": "size_x", "size": "size_x", "edge_radius": "contact_radius", "flat_radius": "contact_radius", "radii": "contact_radius",
-    "radius_x": "contact_radius", "radius_y": "contact_radius", "semi_x": "contact_radius", "semi_y": "contact_radius",
-    "semi_z": "contact_radius", "r": "contact_radius", "center": "size_x", "shift": "size_x", "x0": "size_x", "x1": "size_x", "y0": "size_x", "y1": "size_x",
-    "depth": "height", "mean_plane": "height", "min_prominence": "height", "start": "height", "stop": "height", "target": "rms_height",
-    "range": "gap", "tangential_range": "displacement", "max_amplitude": "normal_amplitude", "velocities": "velocity",
-    "q": "wavenumber", "qx": "wavenumber", "qy": "wavenumber", "direction": "phase", "checkpoint_every": "time",
-    "normal_angular_frequency": "angular_frequency", "tangential_angular_frequency": "angular_frequency",
-    "max_angular_frequency": "angular_frequency", "angular_frequencies": "angular_frequency",
-    "frequency": "threshold_frequency", "pixel_size": "size_x", "crop": "size_x", "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
-}  # fmt: skip
-# Arrays over the grid; every other array has one dimension.
-_FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
-_KINDS = {
-    "float": "a number", "int": "a whole number", "bool": "True or False", "str": "a text", "None": "None",
-    "numpy.typing.ArrayLike": "an array of numbers", "os.PathLike[str]": "a path",
-    "mpi4py.MPI.Intracomm": "a communicator of mpi4py",
-}  # fmt: skip
-_HINTS = {
-    "Surface": "make one with salebra.Surface(heights, size_x, size_y)",
-    "Material": "make one with salebra.Material(contact_modulus, poisson=…)",
-    "Grid2D": "make one with salebra.Grid2D(nx, ny, lx, ly)",
-}
+# ---- units of arguments
 
+# Arguments without the name of their quantity in their own name, by a quantity that has the same unit.
+_LIKE = {
+    argument: quantity
+    for quantity, arguments in {
+        "height": "amplitude center correlation_length crop depth highest max_amplitude length loaded_size lowest lx ly mean_plane"
+        " min_prominence motion_scale noise pixel_size r radii radius_x radius_y range semi_x semi_y semi_z shift size start stop"
+        " tangential_range target transverse x0 x1 y0 y1",
+        "pressure": "material pressure_window window young", "force": "first_load force_amplitude", "wavenumber": "q qx qy",
+        "time": "checkpoint_every duration", "angular_frequency": "angular_frequencies", "threshold_frequency": "frequency",
+        "velocity": "velocities", "phase": "direction", "psd": "densities", "moment0": "power", "work_of_adhesion": "work",
+        "resistivity": "resistivity_1 resistivity_2", "conductivity": "conductivity_1 conductivity_2",
+    }.items()
+    for argument in arguments.split()
+}  # fmt: skip
+
+
+def _like(argument: str) -> str:
+    """The quantity whose unit an argument has: the longest end of its name that the glossary lists, "pressure" for "max_pressure"."""
+    words = _LIKE.get(argument, argument).split("_")
+    ends = ("_".join(words[first:]) for first in range(len(words)))
+    named = (name for end in ends for name in (end, end.removesuffix("s")))
+    return next((name for name in named if _core.quantity(name) != ("1", name)), argument)
+
+
+def _has_unit(value: Any) -> bool:
+    """True for texts and for quantities of pint or astropy."""
+    return isinstance(value, str) or (hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit")))
+
+
+def in_si(value: Any, argument: str) -> Any:
+    """The number of a text, or the number or array of a quantity of pint or astropy, in the SI unit of the argument."""
+    if isinstance(value, str):
+        try:
+            return float(_core.parse_quantity(value, _like(argument)))
+        except _core.InvalidInput as error:
+            raise refusal(argument, error.value, "; ".join(filter(None, (error.constraint, error.remedy)))) from None
+    unit = _core.quantity(_like(argument))[0]
+    try:
+        converted = value.to("" if unit == "1" else unit.replace(" ", "*"))
+    except Exception as error:  # the other package has exceptions of its own
+        raise refusal(argument, str(value), f"is not in {unit}: {error}") from None
+    return converted.magnitude if hasattr(converted, "magnitude") else converted.value
+
+
+def _from_text(value: Any, argument: str, annotation: str) -> Any:
+    """The value; where numbers are wanted, texts and quantities are converted to numbers, also those in a list."""
+    parts = _parts(annotation)
+    wants_array = any(part.startswith(("numpy.typing.ArrayLike", "tuple", "collections.abc.Sequence")) for part in parts)
+    wants_text = any(part.startswith(("str", "typing.Literal")) for part in parts)
+    if _has_unit(value) and not (wants_text and isinstance(value, str)):
+        if "float" in parts or wants_array:
+            return in_si(value, argument)
+        if any(part.endswith("Material") for part in parts):
+            return _core.Material(in_si(value, argument))
+    if wants_array and not wants_text and isinstance(value, (list, tuple)) and any(map(_has_unit, value)):
+        bare = [item for item in value if not _has_unit(item) and item != 0]  # zero is the same in every unit
+        if bare:
+            listed = ", ".join(str(item) for item in value)
+            raise refusal(argument, f"[{listed}]", f"has a unit on only some of its numbers; give {bare[0]} one too, or none to all")
+        return type(value)(in_si(item, argument) if _has_unit(item) else item for item in value)
+    return value
+
+
+# ---- signatures
 
 class _Annotation(str):
     """An annotation as a text, which inspect shows without quotes."""
@@ -88,56 +120,46 @@ class _Annotation(str):
         return self.replace("salebra.", "")
 
 
-def signatures_of(native: Any) -> list[inspect.Signature]:
-    """The signatures of a function of the extension, one of each overload, their annotations as texts."""
-    return [_signature(*overload) for overload in native.__nb_signature__]
+def _annotation(text: Any) -> Any:
+    return text if text is inspect.Parameter.empty else _Annotation(text)
 
 
 def _signature(text: str, _documentation: str | None, *defaults: Any) -> inspect.Signature:
     source = re.sub(r"\\(\d+)", r"_defaults[\1]", text) + ": ..."
     names: dict[str, Any] = {"_defaults": defaults[0] if defaults else ()}
     code = compile(re.sub(r"def \w+\(", "def _(", source), "<signature>", "exec", flags=__future__.annotations.compiler_flag)
-    exec(code, names)  # of the extension's own text
+    exec(code, names)  # the extension wrote this text
     bare = inspect.signature(names["_"])
     parameters = [value.replace(annotation=_annotation(value.annotation)) for value in bare.parameters.values()]
     return bare.replace(parameters=parameters, return_annotation=_annotation(bare.return_annotation))
 
 
-def _annotation(text: Any) -> Any:
-    return text if text is inspect.Parameter.empty else _Annotation(text)
-
-
-def _without_self(signature: inspect.Signature) -> inspect.Signature:
-    return signature.replace(parameters=list(signature.parameters.values())[1:])
-
-
 class _Signatures:
-    """The signatures of a function, made when one is asked for: of hundreds, a script needs few. inspect finds them as what the
-    function wraps."""
+    """The signatures of a function, one for each overload. They are made on request: a script needs few of hundreds. inspect finds
+    the first as `__wrapped__` of a function, or as `__signature__` of a class."""
 
-    def __init__(self, native: Any) -> None:
+    def __init__(self, native: Any, method: bool) -> None:
         self._native = native
+        self._method = method
 
     @functools.cached_property
     def all(self) -> list[inspect.Signature]:
-        return signatures_of(self._native)
+        return [_signature(*overload) for overload in self._native.__nb_signature__]
+
+    @functools.cached_property
+    def parameters(self) -> list[dict[str, inspect.Parameter]]:
+        """The parameters of each overload, without self."""
+        return [dict(list(signature.parameters.items())[self._method :]) for signature in self.all]
 
     @property
     def __signature__(self) -> inspect.Signature:
         return self.all[0]
 
+    def __get__(self, made: Any, kind: type) -> inspect.Signature:
+        return inspect.Signature(list(self.parameters[0].values()))
+
     def __call__(self, *arguments: Any, **keywords: Any) -> Any:
         return self._native(*arguments, **keywords)
-
-
-class _ConstructorSignature:
-    """The signature of a class, likewise."""
-
-    def __init__(self, native: Any) -> None:
-        self._signatures = _Signatures(native)
-
-    def __get__(self, made: Any, kind: type) -> inspect.Signature:
-        return _without_self(self._signatures.__signature__).replace(return_annotation=inspect.Signature.empty)
 
 
 def _parts(annotation: str) -> list[str]:
@@ -152,246 +174,149 @@ def _parts(annotation: str) -> list[str]:
     return parts
 
 
-def _kind(part: str) -> str:
-    if part in _KINDS:
-        return _KINDS[part]
+# ---- calls that the extension refused
+
+def _is_list(value: Any) -> bool:
+    return hasattr(value, "__len__") and not isinstance(value, str)
+
+
+# The first characters of an annotation, how messages name the type, and which values it may accept.
+_KINDS: dict[str, tuple[str, Callable[[Any], bool]]] = {
+    "float": ("a number", lambda value: hasattr(value, "__float__") and np.ndim(value) == 0),
+    "int": ("a whole number", lambda value: hasattr(value, "__index__") and np.ndim(value) == 0),
+    "bool": ("True or False", lambda value: isinstance(value, (bool, np.bool_))),
+    "str": ("a text", lambda value: isinstance(value, str)),
+    "os.PathLike": ("a path", lambda value: hasattr(value, "__fspath__")),
+    "mpi4py.MPI": ("a communicator of mpi4py", lambda value: hasattr(value, "py2f")),
+    "collections.abc.Callable": ("a function", callable),
+    "collections.abc.Sequence": ("a list", _is_list), "list": ("a list", _is_list), "tuple": ("a tuple", _is_list),
+    "numpy.typing.ArrayLike": ("an array of numbers", lambda value: value is not None),
+}  # fmt: skip
+_HINTS = {
+    "Surface": "make one with salebra.Surface(heights, size_x, size_y)",
+    "Material": "make one with salebra.Material(contact_modulus, poisson=…)",
+    "Grid2D": "make one with salebra.Grid2D(nx, ny, lx, ly)",
+}
+# Arrays over the grid; every other array has one dimension.
+_FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
+
+
+def _kind(part: str) -> tuple[str, Callable[[Any], bool]]:
+    """How messages name one alternative of an annotation, and which values it may accept."""
     if part.startswith("typing.Literal["):
-        return "one of " + part[len("typing.Literal[") : -1]
-    if part.startswith("collections.abc.Callable"):
-        return "a function"
-    if part.startswith(("collections.abc.Sequence", "list")):
-        return "a list"
-    if part.startswith("tuple"):
-        return "a tuple"
+        return "one of " + part[len("typing.Literal[") : -1], _KINDS["str"][1]
+    for beginning, kind in _KINDS.items():
+        if part.startswith(beginning):
+            return kind
     name = part.rsplit(".", 1)[-1]
-    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}", lambda value: isinstance(value, getattr(_core, name, object))
 
 
 def _wanted(annotation: str) -> str:
-    kinds = [_kind(part) for part in _parts(annotation) if part != "None"]
-    return " or ".join(dict.fromkeys(kinds))
+    return " or ".join(dict.fromkeys(_kind(part)[0] for part in _parts(annotation) if part != "None"))
 
 
-def _came(value: Any) -> str:
+def _got(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"an array of shape {value.shape} and type {value.dtype}"
     if isinstance(value, (str, int, float, bool)) or value is None:
         return repr(value)
-    return f"{type(value).__module__.split('.')[0]}.{type(value).__name__}" if not _builtin(value) else f"a {type(value).__name__}"
+    kind = type(value)
+    return f"a {kind.__name__}" if kind.__module__ == "builtins" else f"{kind.__module__.split('.')[0]}.{kind.__name__}"
 
 
-def _builtin(value: Any) -> bool:
-    return type(value).__module__ == "builtins"
+FORMER = {  # names of version 1.0: classes, functions, keywords, attributes
+    "Condition": "AssumptionVerdict", "ContactFacts": "ContactParameters", "ContactLevels": "ContactSets",
+    "LargestMotion": "MaxMotion", "LawLevels": "LawSprings", "LevelQuadratureResult": "IntervalQuadratureResult",
+    "LossWithSlip": "Loss", "Premise": "Assumption", "Premises": "Assumptions", "StudyAnswer": "StudySolution",
+    "StudyFlag": "EnsembleWarning", "SurfaceDamping": "DampingResult",
+    "boundary_element_levels": "boundary_element_contact_sets", "level_quadrature": "interval_quadrature",
+    "premises_of": "assumptions_of",
+    "condition": "assumption", "conditions": "verdicts", "contact_levels": "contact_sets", "facts": "parameters",
+    "flags": "ensemble_warnings", "largest_amplitude": "max_amplitude",
+    "largest_angular_frequency": "max_angular_frequency", "largest_motion": "max_motion",
+    "largest_pressure": "max_pressure", "largest_radius": "max_radius", "largest_spot_area": "max_spot_area",
+    "largest_spot_share": "max_spot_share", "largest_tension": "max_tension", "level": "spring_depth",
+    "levels": "intervals or springs or contact_sets", "most_cycles": "max_cycles", "notes": "warnings", "premises": "assumptions",
+    "answer": "solution", "answer_of": "solution_of", "contacts_least": "min_contacts", "contacts_most": "max_contacts",
+    "decay_length_closest": "decay_length_at_min_gap", "decay_length_farthest": "decay_length_at_max_gap",
+    "full_stick_work": "work_per_cycle_without_slip", "ladder_count": "multilevel_count",
+    "law_off_closest": "law_off_at_min_gap", "law_off_farthest": "law_off_at_max_gap", "level_error": "interval_error",
+    "needs": "unknown", "scatter": "noise", "scatter_error": "noise_error",
+    "work_with_slip_error": "work_per_cycle_error",
+    "slip_of_closed_levels": "slip_of_closed_springs", "slip_of_opening_levels": "slip_of_opening_springs",
+    "smallest_force": "min_force", "work_by_levels": "work_by_intervals",
+}  # fmt: skip
 
 
-def _fits(part: str, value: Any) -> bool:
-    """Whether a value may be meant by one alternative of an annotation; what cannot be told counts as meant."""
-    if part == "None":
-        return value is None
-    if value is None:
-        return False
-    if part == "float":
-        return isinstance(value, (int, float, np.number)) or (hasattr(value, "__float__") and np.ndim(value) == 0)
-    if part == "int":
-        return hasattr(value, "__index__") and np.ndim(value) == 0
-    if part == "bool":
-        return isinstance(value, (bool, np.bool_))
-    if part == "str" or part.startswith("typing.Literal["):
-        return isinstance(value, str)
-    if part == "os.PathLike[str]":
-        return hasattr(value, "__fspath__")
-    if part == "mpi4py.MPI.Intracomm":
-        return hasattr(value, "py2f")
-    if part.startswith("collections.abc.Callable"):
-        return callable(value)
-    if part.startswith(("collections.abc.Sequence", "list", "tuple")):
-        return hasattr(value, "__len__") and not isinstance(value, str)
-    kind = getattr(_core, part.rsplit(".", 1)[-1], None)
-    return not isinstance(kind, type) or isinstance(value, kind)
+def _no_attribute(self: Any, name: str) -> Any:
+    now = FORMER.get(name)
+    here = [one for one in now.split(" or ") if hasattr(type(self), one)] if now else []
+    former = f"; {name} is now {here[0]}" if here else ""
+    raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'{former}", name=name, obj=self)
 
 
-def _like(argument: str) -> str:
-    """The quantity whose units an argument has."""
-    like = _LIKE.get(argument, "contact_modulus" if argument == "material" else argument)
-    if like.endswith("s") and _core.quantity(like)[1] == like:  # a list of what the quantity is
-        like = like[:-1]
-    return like
+def _attribute_or_former(own: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
+    def attribute(self: Any, name: str) -> Any:
+        try:
+            return own(self, name)
+        except AttributeError:
+            if name in FORMER:
+                now = FORMER[name].split(" or ")[0]
+                raise AttributeError(f"'{type(self).__name__}' has no attribute '{name}'; {name} is now {now}", name=name, obj=self) from None
+            raise
+
+    return attribute
 
 
-def _number(text: str, argument: str) -> float:
-    try:
-        return float(_core.parse_quantity(text, _like(argument)))
-    except _core.InvalidInput as error:
-        demand = f"{error.constraint}; {error.remedy}" if error.remedy else error.constraint
-        raise refusal(argument, error.value, demand) from None
+def _bound(parameters: Mapping[str, inspect.Parameter], arguments: tuple[Any, ...], keywords: dict[str, Any]) -> dict[str, Any]:
+    """The arguments by name. Raises TypeError for arguments that no parameter accepts and for missing ones."""
+    positional = [name for name, parameter in parameters.items() if parameter.kind is not parameter.KEYWORD_ONLY]
+    if len(arguments) > len(positional):
+        rest = ", ".join(name for name in parameters if name not in positional)
+        advice = f"; give what follows by name: {rest}" if rest else ""
+        raise TypeError(f"{len(arguments)} arguments, at most {len(positional)} go by place ({', '.join(positional)}){advice}")
+    bound = dict(zip(positional, arguments))
+    for key in keywords:
+        if key not in parameters:
+            former = [name for name in FORMER.get(key, "").split(" or ") if name in parameters]
+            close = former or difflib.get_close_matches(key, parameters, 1, 0.5)
+            raise TypeError(f"no argument {key}; " + (f"did you mean {close[0]}?" if close else f"it takes {', '.join(parameters)}"))
+        if key in bound:
+            raise TypeError(f"{key} was given twice, by its place and by its name")
+    bound |= keywords
+    for name, parameter in parameters.items():
+        if name not in bound and parameter.default is parameter.empty:
+            raise TypeError(f"{name} is missing; give {_wanted(parameter.annotation)}")
+    return bound
 
 
-def _has_unit(value: Any) -> bool:
-    """Whether a value is a quantity of pint or of astropy."""
-    return hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit"))
-
-
-def _in_si(quantity: Any, argument: str) -> Any:
-    """The number, or the array, of a quantity of pint or of astropy."""
-    unit = _core.quantity(_like(argument))[0]
-    try:
-        converted = quantity.to("" if unit == "1" else unit.replace(" ", "*"))
-    except Exception as error:  # of the other library
-        raise refusal(argument, str(quantity), f"is not in {unit}: {error}") from None
-    return converted.magnitude if hasattr(converted, "magnitude") else converted.value
-
-
-def _is_bare(item: Any) -> bool:
-    """Whether it is a number without a unit that needs one: zero is the same in every unit."""
-    try:
-        return float(item) != 0
-    except (TypeError, ValueError):
-        return False
-
-
-def _from_text(value: Any, argument: str, annotation: str) -> Any:
-    """The numbers of a text or an object with a unit, or of a list of them, where numbers are wanted; else the value itself."""
-    parts = _parts(annotation)
-    if _has_unit(value) and ("float" in parts or "numpy.typing.ArrayLike" in parts):
-        return _in_si(value, argument)
-    if any(part == "str" or part.startswith("typing.Literal[") for part in parts):
+def _checked(parameter: inspect.Parameter, value: Any, beside_material: bool) -> Any:
+    """The value, converted if it is a text with a unit. Raises TypeError "name: wanted …, got …"."""
+    if value is parameter.default:
         return value
-    wants_array = "numpy.typing.ArrayLike" in parts or any(part.startswith(("tuple", "collections.abc.Sequence")) for part in parts)
-    if isinstance(value, str):
-        if "float" in parts or wants_array:
-            return _number(value, argument)
-        if any(part.endswith("Material") for part in parts):
-            return _core.Material(_number(value, argument))
-    if wants_array and isinstance(value, (list, tuple)) and any(isinstance(item, str) or _has_unit(item) for item in value):
-        bare = [item for item in value if _is_bare(item)]
-        if bare and len(bare) < len(value):
-            listed = ", ".join(str(item) for item in value)
-            raise refusal(argument, f"[{listed}]", f"has a unit at some of its numbers alone; give {bare[0]} one too, or none to all")
-        return type(value)(
-            _number(item, argument) if isinstance(item, str) else _in_si(item, argument) if _has_unit(item) else item for item in value
-        )
+    name, annotation = parameter.name, str(parameter.annotation)
+    value = _from_text(value, name, annotation)
+    parts = _parts(annotation)
+    if "numpy.typing.ArrayLike" in parts and value is not None:
+        _check_array(name, value, 2 if name in _FIELDS and not (name == "pressure" and beside_material) else 1)
+    elif not any(value is None if part == "None" else _kind(part)[1](value) for part in parts):
+        hint = next((f"; {_HINTS[part.rsplit('.', 1)[-1]]}" for part in parts if part.rsplit(".", 1)[-1] in _HINTS), "")
+        raise TypeError(f"{name}: wanted {_wanted(annotation)}, got {_got(value)}{hint}")
     return value
 
 
-class _Call:
-    """One call whose arguments were refused."""
-
-    def __init__(self, name: str, signature: inspect.Signature, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-        self.name = name
-        self.parameters = dict(signature.parameters)
-        self.arguments = arguments
-        self.keywords = dict(keywords)
-
-    def error(self, text: str) -> TypeError:
-        return TypeError(f"{self.name}: {text}")
-
-    def bind(self) -> dict[str, Any]:
-        """The arguments by name. Raises TypeError for those that no parameter takes, and for what is missing."""
-        places = [name for name, parameter in self.parameters.items() if parameter.kind is not inspect.Parameter.KEYWORD_ONLY]
-        if len(self.arguments) > len(places):
-            after = [name for name in self.parameters if name not in places]
-            advice = f"; give what follows by name: {', '.join(after)}" if after else ""
-            raise self.error(f"{len(self.arguments)} arguments, at most {len(places)} go by place ({', '.join(places)}){advice}")
-        bound = dict(zip(places, self.arguments))
-        for key, value in self.keywords.items():
-            if key not in self.parameters:
-                close = difflib.get_close_matches(key, self.parameters, 1, 0.5)
-                advice = f"did you mean {close[0]}?" if close else f"it takes {', '.join(self.parameters)}"
-                raise self.error(f"no argument {key}; {advice}")
-            if key in bound:
-                raise self.error(f"{key} was given twice, by its place and by its name")
-            bound[key] = value
-        for name, parameter in self.parameters.items():
-            if name not in bound and parameter.default is inspect.Parameter.empty:
-                raise self.error(f"{name} is missing; give {_wanted(parameter.annotation)}")
-        return bound
-
-    def checked(self, name: str, value: Any) -> Any:
-        """The value, made of a text where it is one. Raises TypeError "…: name: wanted …, got …"."""
-        annotation = str(self.parameters[name].annotation)
-        value = _from_text(value, name, annotation)
-        parts = _parts(annotation)
-        if "numpy.typing.ArrayLike" in parts and value is not None:
-            self.check_shape(name, value, len(parts) > 1 and not isinstance(value, str))
-        elif not any(_fits(part, value) for part in parts):
-            hint = next((_HINTS[part.rsplit(".", 1)[-1]] for part in parts if part.rsplit(".", 1)[-1] in _HINTS), "")
-            raise self.error(f"{name}: wanted {_wanted(annotation)}, got {_came(value)}" + (f"; {hint}" if hint else ""))
-        return value
-
-    def check_shape(self, name: str, value: Any, optional: bool) -> None:
-        try:
-            array = np.asarray(value)
-            is_complex = array.dtype.kind == "c"
-            array = array if is_complex else array.astype(float)
-        except (TypeError, ValueError):
-            raise self.error(f"{name}: wanted an array of numbers, got {_came(value)}") from None
-        if is_complex:
-            raise self.error(f"{name}: wanted real numbers, got {_came(value)}; take its .real")
-        field = name in _FIELDS and not (name == "pressure" and "material" in self.parameters)
-        if field and array.ndim != 2:
-            raise self.error(f"{name}: wanted two dimensions (nx, ny), got shape {array.shape}")
-        if not field and array.ndim > 1:
-            raise self.error(f"{name}: wanted one dimension, got shape {array.shape}")
-
-    def again(self, native: Callable[..., Any], error: TypeError) -> Any:
-        """The call with what its texts mean."""
-        bound = self.bind()
-        checked = {name: self.checked(name, value) for name, value in bound.items()}
-        if all(checked[name] is bound[name] for name in bound):
-            raise self.error(str(error).split("\n")[0]) from None
-        return native(**checked)
-
-
-def _missing_file(error: Exception, signature: inspect.Signature, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-    """Raises MissingFile in place of an error about a file that is not there."""
-    for name, value in [*zip(signature.parameters, arguments), *keywords.items()]:
-        parameter = signature.parameters.get(name)
-        if parameter is None or "PathLike" not in str(parameter.annotation) or not isinstance(value, (str, os.PathLike)):
-            continue
-        path = os.fspath(value)
-        if path and not os.path.exists(path) and os.path.basename(path) in str(error):
-            writes = "overwrite" in signature.parameters
-            if not writes or not os.path.isdir(os.path.dirname(path) or "."):
-                missing = MissingFile(str(error))
-                missing.__dict__.update(error.__dict__)
-                missing.filename = path
-                missing.errno = errno.ENOENT
-                raise missing from None
-
-
-def _warn(name: str, signatures: _Signatures, result: Any) -> None:
-    converged = getattr(result, "converged", True)
-    if converged is True or getattr(result, "termination", None) == "interrupted":
-        return
-    if isinstance(converged, np.ndarray):
-        failed = int(np.size(converged) - np.count_nonzero(converged))
-        if failed == 0:
-            return
-        what = f"{failed} of {np.size(converged)} samples did not converge; they are marked"
-    elif converged is False:
-        residual = getattr(result, "residual", None)
-        what = "did not converge" + (f", residual {residual:.1e}" if isinstance(residual, float) else "")
-        what += "; its numbers are not an answer"
-    else:
-        return
-    remedies = " or ".join(option for option in ("max_iterations", "tolerance") if option in signatures.__signature__.parameters)
-    warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
-
-
-def _warn_of_pressure(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-    """Warns of a contact pressed by more than a tenth of E*: as a rule a unit was forgotten."""
-    if isinstance(result, _core.NormalContactState):
-        pressure, modulus = result.mean_pressure, result.contact_modulus
-    elif isinstance(result, _core.ForceCurve):
-        materials = [value for value in (*arguments, *keywords.values()) if isinstance(value, _core.Material)]
-        if not materials or len(result) == 0:
-            return
-        pressure, modulus = float(np.max(result.pressure)), materials[0].contact_modulus
-    else:
-        return
-    warning = _core._warning_of_pressure(pressure, modulus)
-    if warning:
-        warnings.warn(f"{name}: {warning}", stacklevel=3)
+def _check_array(name: str, value: Any, dimensions: int) -> None:
+    try:
+        array = np.asarray(value)
+        array = array if array.dtype.kind == "c" else array.astype(float)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: wanted an array of numbers, got {_got(value)}") from None
+    if array.dtype.kind == "c":
+        raise TypeError(f"{name}: wanted real numbers, got {_got(value)}; take its .real")
+    if array.ndim > dimensions or array.ndim < dimensions == 2:
+        wanted = "two dimensions (nx, ny)" if dimensions == 2 else "one dimension"
+        raise TypeError(f"{name}: wanted {wanted}, got shape {array.shape}")
 
 
 def _refused(error: TypeError) -> bool:
@@ -399,22 +324,73 @@ def _refused(error: TypeError) -> bool:
 
 
 def _once_more(
-    native: Callable[..., Any], name: str, signatures: list[inspect.Signature], arguments: tuple[Any, ...],
+    native: Callable[..., Any], name: str, overloads: list[dict[str, inspect.Parameter]], arguments: tuple[Any, ...],
     keywords: dict[str, Any], error: TypeError,
-) -> Any:
-    """The call by the first overload that can be meant; the error of the first where none can."""
+) -> Any:  # fmt: skip
+    """Calls the first overload that accepts the converted arguments. If there is none, raises the error of the first overload."""
     refusals = []
-    for signature in signatures:
+    for parameters in overloads:
         try:
-            return _Call(name, signature, arguments, keywords).again(native, error)
-        except TypeError as refusal:
-            refusals.append(refusal)
-    raise refusals[0] from None
+            bound = _bound(parameters, arguments, keywords)
+            checked = {key: _checked(parameters[key], value, "material" in parameters) for key, value in bound.items()}
+        except TypeError as wrong:
+            refusals.append(str(wrong))
+            continue
+        if any(checked[key] is not bound[key] for key in bound):
+            return native(**checked)
+        refusals.append(str(error).split("\n")[0])
+    raise TypeError(f"{name}: {refusals[0]}") from None
+
+
+# ---- after a call
+
+def _missing_file(error: Exception, parameters: Mapping[str, inspect.Parameter], arguments: Mapping[str, Any]) -> None:
+    """Raises MissingFile in place of an error about a file that does not exist."""
+    for name, value in arguments.items():
+        if name not in parameters or "PathLike" not in str(parameters[name].annotation) or not isinstance(value, (str, os.PathLike)):
+            continue
+        path = os.fspath(value)
+        can_be_written = "overwrite" in parameters and os.path.isdir(os.path.dirname(path) or ".")
+        if path and not os.path.exists(path) and not can_be_written and os.path.basename(path) in str(error):
+            missing = MissingFile(str(error))
+            missing.__dict__.update(error.__dict__)
+            missing.filename, missing.errno = path, errno.ENOENT
+            raise missing from None
+
+
+def _warn(name: str, signatures: _Signatures, result: Any) -> None:
+    """Warns about a result that did not converge."""
+    converged = getattr(result, "converged", True)
+    if converged is True or getattr(result, "termination", None) == "interrupted":
+        return
+    if isinstance(converged, np.ndarray) and not converged.all():
+        what = f"{np.count_nonzero(~converged)} of {converged.size} samples did not converge; they are marked"
+    elif converged is False:
+        residual = getattr(result, "residual", None)
+        what = "did not converge" + (f", residual {residual:.1e}" if isinstance(residual, float) else "") + "; its numbers are not an answer"
+    else:
+        return
+    remedies = " or ".join(option for option in ("max_iterations", "tolerance") if option in signatures.parameters[0])
+    warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
+
+
+def _warn_of_pressure(name: str, result: Any, arguments: tuple[Any, ...]) -> None:
+    """Warns about a contact pressed by more than a tenth of E*: as a rule a unit was forgotten."""
+    if isinstance(result, _core.NormalContactState):
+        pressure, modulus = result.mean_pressure, result.contact_modulus
+    elif isinstance(result, _core.ForceCurve) and len(result) > 0:
+        pressure = float(np.max(result.pressure))
+        modulus = next((value.contact_modulus for value in arguments if isinstance(value, _core.Material)), np.inf)
+    else:
+        return
+    warning = _core._warning_of_pressure(pressure, modulus)
+    if warning:
+        warnings.warn(f"{name}: {warning}", stacklevel=3)
 
 
 def function(native: Any, name: str, module: str = "salebra", method: bool = False) -> Callable[..., Any]:
-    """A Python function of one of the extension, which a user finds in the module."""
-    signatures = _Signatures(native)
+    """Wraps a function of the extension, which users find in the module."""
+    signatures = _Signatures(native, method)
 
     def call(*arguments: Any, **keywords: Any) -> Any:
         try:
@@ -422,13 +398,13 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
         except TypeError as error:
             if not _refused(error):
                 raise
-            here = functools.partial(native, arguments[0]) if method and arguments else native
-            overloads = [_without_self(overload) for overload in signatures.all] if method else signatures.all
-            result = _once_more(here, name, overloads, arguments[1:] if method else arguments, keywords, error)
+            here = functools.partial(native, *arguments[:method])
+            result = _once_more(here, name, signatures.parameters, arguments[method:], keywords, error)
         except (_core.InvalidInput, _core.IoError) as error:
-            _missing_file(error, signatures.__signature__, arguments, keywords)
+            parameters = signatures.parameters[0]
+            _missing_file(error, parameters, dict(zip(parameters, arguments[method:])) | keywords)
             raise
-        _warn_of_pressure(name, result, arguments, keywords)
+        _warn_of_pressure(name, result, (*arguments, *keywords.values()))
         _warn(name, signatures, result)
         _remember(result, name, arguments, keywords)
         return result
@@ -441,60 +417,17 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
     return call
 
 
-def _of_labelled(arguments: tuple[Any, ...], keywords: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """Arguments of a Surface: those of an xarray.DataArray over x and y with its order of axes, its coordinates and its units."""
-    named = {**dict(zip(("heights", "size_x", "size_y"), arguments)), **keywords}
-    heights = named.get("heights")
-    if set(getattr(heights, "dims", ())) != {"x", "y"} or not hasattr(heights, "coords") or len(arguments) > 3:
-        return arguments, keywords
-    array: Any = heights
-    for axis in array.coords.keys() & {"x", "y"}:
-        array = array.sortby(axis)
-        points = array.coords[axis]
-        steps = np.diff(points.values.astype(float))
-        if f"size_{axis}" in named or steps.size == 0:
-            continue
-        if not np.allclose(steps, steps.mean(), rtol=1e-3, atol=0):
-            raise refusal(f"heights.{axis}", "", "is not evenly spaced; interpolate the heights to a grid")
-        named[f"size_{axis}"] = (steps.size + 1) * float(steps.mean()) * _metres(points, f"size_{axis}")
-    # As to_xarray() says of the whole surface: a part of it has another size and does not repeat itself.
-    whole = all(np.isclose(array.attrs.get(f"size_{axis}", math.nan), named.get(f"size_{axis}", math.nan)) for axis in "xy")
-    if whole and "periodic" in array.attrs:
-        named.setdefault("periodic", bool(array.attrs["periodic"]))
-    named["heights"] = array.transpose("x", "y").values
-    if "units" in array.attrs:
-        factor = _metres(array, "heights")
-        named["heights"] = named["heights"] if factor == 1 else named["heights"] * factor
-    return (), named
-
-
-def _metres(labelled: Any, argument: str) -> float:
-    units = labelled.attrs.get("units")
-    return _number(f"1 {units}", argument) if units else 1.0
-
-
-# Of which f may be given for ω = 2πf.
-_OSCILLATIONS = ("Drag", "EqualFrequency")
-
-
-def _of_frequency(keywords: dict[str, Any]) -> dict[str, Any]:
-    if "angular_frequency" in keywords:
-        raise refusal("frequency", "", "was given beside angular_frequency; give one of them")
-    rest = {key: value for key, value in keywords.items() if key != "frequency"}
-    given = keywords["frequency"]
-    frequency = _number(given, "frequency") if isinstance(given, str) else float(given)
-    return {**rest, "angular_frequency": 2 * math.pi * frequency}
-
+# ---- objects
 
 _constructors: dict[str, Callable[..., Any]] = {}
 
 
 def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-    """Called by the extension where an object is made."""
+    """The extension calls this function to make an object."""
     if name == "Surface":
-        arguments, keywords = _of_labelled(arguments, keywords)
-    elif name in _OSCILLATIONS and "frequency" in keywords:
-        keywords = _of_frequency(keywords)
+        from ._results import from_xarray
+
+        arguments, keywords = from_xarray(arguments, keywords)
     _constructors[name](made, *arguments, **keywords)
     if name == "Surface":
         warning = _core._warning_of_heights(made)
@@ -503,17 +436,19 @@ def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[s
     _remember(made, name, arguments, keywords)
 
 
-# ---- objects that are what a call made of its arguments
-
-def _kept(value: Any) -> Any:
-    return value.copy() if isinstance(value, np.ndarray) else value
+# Classes without a description: a pickle has the call that made the object, and == compares those calls.
+_REMADE: tuple[type, ...] = (
+    _core.ContactLaw, _core.AsperityModel, _core.Spectrum, _core.ProfileSpectrum, _core.HeightDistribution, _core.IndenterProfile,
+    _core.PerssonTheory, _core.BearingCurve, _core.ContactSets, _core.ResultReader,
+)  # fmt: skip
 
 
 def _remember(made: Any, name: str, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-    if type(made).__dictoffset__ and isinstance(made, _REMADE):
-        made.__dict__.setdefault(
-            "_call", (name, tuple(_kept(value) for value in arguments), {key: _kept(value) for key, value in keywords.items()})
-        )
+    def kept(value: Any) -> Any:
+        return value.copy() if isinstance(value, np.ndarray) else value
+
+    if isinstance(made, _REMADE) and type(made).__dictoffset__:
+        made.__dict__.setdefault("_call", (name, tuple(map(kept, arguments)), {key: kept(value) for key, value in keywords.items()}))
 
 
 def _again(name: str, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
@@ -548,36 +483,21 @@ def _hash(self: Any) -> int:
 
 
 def _hash_of_call(self: Any) -> int:
-    """The same for what _equal() calls equal. Arrays, lists and objects that have no hash count by their size alone."""
+    """The hash of the function and of the arguments that are numbers or texts, so that equal objects have equal hashes."""
     if "_call" not in self.__dict__:
         return object.__hash__(self)
-
-    def digest(value: Any) -> int:
-        if isinstance(value, (np.ndarray, list, tuple, dict)) or type(value).__hash__ is None:
-            return int(np.size(value)) if not isinstance(value, dict) else len(value)
-        return hash(value)
-
     name, arguments, keywords = self.__dict__["_call"]
-    return hash((name, *map(digest, arguments), *((key, digest(keywords[key])) for key in sorted(keywords))))
-
-
-_REMADE: tuple[type, ...] = (
-    _core.ContactLaw, _core.AsperityModel, _core.Spectrum, _core.ProfileSpectrum, _core.HeightDistribution, _core.IndenterProfile,
-    _core.PerssonTheory, _core.BearingCurve, _core.ContactSets, _core.ResultReader,
-)  # fmt: skip
+    return hash((name, *(value for value in (*arguments, *map(keywords.get, sorted(keywords))) if isinstance(value, (str, int, float, np.generic)))))
 
 
 def _answer_class(kind: Any) -> None:
-    """Constructor, methods, pickle and repr of a class of the extension."""
-    from . import _show
-
+    """Replaces constructor and methods of a class of the extension by wrappers, and adds pickle, == and repr."""
     own = vars(kind)
     name = kind.__name__
     if type(own.get("__init__")).__name__ == "nb_method":
-        signature = _ConstructorSignature(own["__init__"])
+        kind.__signature__ = _Signatures(own["__init__"], method=True)
         _constructors[name] = function(own["__init__"], name, method=True)
         _core._answer_constructor(kind, name)
-        kind.__signature__ = signature
     for key, value in list(own.items()):
         if key.startswith("_"):
             continue
@@ -585,22 +505,21 @@ def _answer_class(kind: Any) -> None:
             setattr(kind, key, function(value, f"{name}.{key}", method=True))
         elif type(value).__name__ == "nb_func":
             setattr(kind, key, staticmethod(function(value, f"{name}.{key}")))
-        elif isinstance(value, property) and value.__doc__:  # of those without a text: what they return, as it was called at first
+        elif isinstance(value, property) and value.__doc__:  # without a text, nanobind names the type by its first module
             value.__doc__ = value.__doc__.replace("salebra._core.", "salebra.")
     if issubclass(kind, _REMADE):
-        kind.__reduce__ = _reduce
-        kind.__eq__ = _equal
-        kind.__hash__ = _hash_of_call
+        kind.__reduce__, kind.__eq__, kind.__hash__ = _reduce, _equal, _hash_of_call
     elif "__eq__" in own and "__hash__" not in own:
         kind.__hash__ = None if name in ("Surface", "NonGaussianSurface") else _hash
-    if "__repr__" not in own and not (issubclass(kind, BaseException)):
+    kind.__getattr__ = _attribute_or_former(own["__getattr__"]) if "__getattr__" in own else _no_attribute
+    if "__repr__" not in own:
         kind.__repr__ = _show.text
     kind._repr_html_ = _show.html
 
 
 def answer() -> None:
-    """Puts everything of this file around the extension. Called once, when the package is imported."""
-    # First of all, since signatures and documentation name the module of every class. Messages and pickles show it too.
+    """Wraps the whole extension. The package calls this once, when it is imported."""
+    # Signatures, documentation, messages and pickles show the module of a class: it is set before they are made.
     for kind in [*vars(_core).values(), MissingFile, ConvergenceWarning]:
         if isinstance(kind, type):
             kind.__module__ = "salebra"

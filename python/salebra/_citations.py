@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What to cite for what a session used."""
+"""Publications to cite for the functions that a session used."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from . import _core
 
 @dataclass(frozen=True)
 class Citation:
-    """A publication behind something that was computed."""
+    """A publication behind a function or a method."""
 
     key: str
     text: str
@@ -49,7 +49,7 @@ _ALL = {
 
 
 def citations() -> list[Citation]:
-    """Publications behind what this session has used so far, in the order of first use; salebra's own comes first.
+    """Publications behind the functions that this session has used, in the order of first use, after salebra itself.
 
     Returns
     -------

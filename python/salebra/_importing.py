@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`salebra-import FILE OUT.h5`: a file of an instrument, read by SurfaceTopography, as a surface that salebra reads.
+"""`salebra-import FILE OUT.h5` converts a file of an instrument, by SurfaceTopography, to a surface that salebra reads.
 
-The program calls it for files whose format it does not know. What the file does not state, its size or its unit, is not in OUT.h5
-either, and whoever reads that says with which option to give it.
+The program calls it for files of unknown format. If FILE states no size or no unit, OUT.h5 has none either, and the reader of OUT.h5 says
+which option gives it.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ INSTALL = "pip install 'salebra[formats]'"
 
 
 class ImportRefusal(Exception):
-    """A file that is not read, with the reason in one line."""
+    """The file cannot be read; the reason in one line."""
 
 
-# What the HDF5 library takes a file for its own by, at its start or behind a block of 512 bytes, twice as many, and so on.
+# The HDF5 library recognises a file by this signature at its start or at byte 512, 1024, 2048 and so on.
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 
 
 def _require_harmless(file: str) -> None:
-    """Raises ImportRefusal for what is no regular file, and for HDF5, which may name other files that h5py would read."""
+    """Raises ImportRefusal unless the file is regular, and for HDF5, which may name other files that h5py would read."""
     if not os.path.isfile(file):
         raise ImportRefusal("does not exist, or is no regular file; check the path")
     with open(file, "rb") as stream:
@@ -53,7 +53,7 @@ def _require_harmless(file: str) -> None:
 
 
 def _require_place(file: str, out: str) -> None:
-    """Raises ImportRefusal where OUT is the file itself, or a device, pipe or folder that a file would replace."""
+    """Raises ImportRefusal if OUT is the file itself, or a device, pipe or folder that a file would replace."""
     if not os.path.lexists(out):
         return
     if not os.path.isfile(out):
@@ -63,10 +63,10 @@ def _require_place(file: str, out: str) -> None:
 
 
 def _confine(file: str, out: str) -> None:
-    """Takes from this process what a reader of a damaged file could do: other files, core files, endless work.
+    """Restricts this process, since damaged files may exploit their reader: no other files, no core files, limited time.
 
-    Landlock (Linux 5.13) leaves it the file, the folder of OUT and what Python and its libraries are made of; where the kernel has no
-    Landlock, the limits remain.
+    Landlock (Linux 5.13) allows only the file, the folder of OUT, and Python with its libraries. Without Landlock in the kernel, the limits
+    of time and core files remain.
     """
     seconds = 60 + os.path.getsize(file) // 1_000_000
     for kind, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_CPU, seconds)):
@@ -110,7 +110,7 @@ def _opened(file: str) -> Any:
     except ImportError as error:
         raise ImportRefusal(f"is of no format that salebra knows; SurfaceTopography knows forty more: {INSTALL}") from error
     try:
-        # Readers that try a file in vain print what they met.
+        # Readers that do not recognise a file print messages.
         with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(io.StringIO()):
             return open_topography(file)
     except CannotDetectFileFormat as error:
@@ -138,55 +138,55 @@ def _attributes(file: str, reader: Any, channel: Any, topography: Any) -> dict[s
 
 
 def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None, dict[str, Any], list[str]]:
-    """Heights, positions of a profile, attributes, and what the reader should know."""
+    """Heights, positions of a profile, attributes, and warnings."""
     reader = _opened(file)
     channel = _channel_of(reader, wanted)
-    warnings = []
+    found = []
     if wanted is None and len(reader.channels) > 1:
         others = ", ".join(str(other.name) for other in reader.channels if other.index != channel.index)
-        warnings.append(f"channel {channel.name} of several; the others are {others}")
+        found.append(f"channel {channel.name} of several; the others are {others}")
     missing: dict[str, Any] = {}
     if channel.physical_sizes is None or any(size is None for size in np.atleast_1d(channel.physical_sizes)):
         missing["physical_sizes"] = (1.0,) * channel.dim
     topography = reader.topography(channel_index=channel.index, **missing)
     unit = topography.unit
     if unit is not None and metres_in(str(unit)) is None:
-        raise ImportRefusal(f"has heights in '{unit}', which is no unit of length; name another channel by --channel")
+        raise ImportRefusal(f"has heights in '{unit}', which is not a unit of length; name another channel by --channel")
     factor = None if unit is None else metres_in(str(unit))
     attributes = _attributes(file, reader, channel, topography)
     heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
     positions = None
     if topography.dim == 1:
-        # A profile without a length has its points one apart.
+        # Without a length SurfaceTopography sets the distance of points to 1.
         positions = np.asarray(topography.positions(), dtype=np.float64)
         if "physical_sizes" in missing:
             positions = None
     if factor is not None:
-        # As SurfaceTopography's scaled heights times the unit.
+        # The heights of SurfaceTopography are in this unit.
         heights = heights * factor if factor != 1.0 else heights
         positions = positions * factor if positions is not None else None
         attributes["units"], attributes["source_units"] = "m", str(unit)
     sizes = topography.physical_sizes
     if "physical_sizes" not in missing:
         if factor is None:
-            warnings.append(f"its size of {' x '.join(f'{size:g}' for size in sizes)} is without a unit, and not used")
+            found.append(f"its size of {' x '.join(f'{size:g}' for size in sizes)} is without a unit, and not used")
             positions = None
         else:
             for name, size in zip(("size_x", "size_y"), sizes):
                 attributes[name] = float(size) * factor
     if topography.dim == 2:
         attributes["periodic"] = int(bool(topography.is_periodic))
-    return heights, positions, attributes, warnings
+    return heights, positions, attributes, found
 
 
 def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *, channel: str | int | None = None) -> list[str]:
-    """Writes what `file` holds as HDF5, which appears whole or not at all. Returns warnings. Raises ImportRefusal."""
+    """Converts `file` to HDF5, which appears complete or not at all. Returns warnings. Raises ImportRefusal."""
     file, out = os.fspath(file), os.fspath(out)
     _require_harmless(file)
     _require_place(file, out)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        heights, positions, attributes, warnings = _read(file, None if channel is None else str(channel))
+        heights, positions, attributes, found = _read(file, None if channel is None else str(channel))
     import h5py  # type: ignore[import-untyped]  # SurfaceTopography needs it too
 
     folder = os.path.dirname(os.path.abspath(out))
@@ -203,11 +203,11 @@ def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *,
     except BaseException:
         os.unlink(temporary)
         raise
-    return warnings
+    return found
 
 
 def imported(file: str, out: str, channel: str = "") -> list[str]:
-    """import_surface() for the extension, which takes a ValueError for a refusal."""
+    """import_surface() for the extension, which reports a ValueError as a refusal."""
     try:
         return import_surface(file, out, channel=channel or None)
     except ImportRefusal as refusal:
@@ -239,7 +239,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 2
         _require_harmless(given.file)
         _require_place(given.file, given.out)
-        # What is imported later would write its caches.
+        # Imported before _confine(), after which they could not write their caches.
         with contextlib.suppress(ImportError):
             import h5py  # noqa: F401
             import SurfaceTopography  # noqa: F401

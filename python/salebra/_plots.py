@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of results. matplotlib is imported when the first one is drawn."""
+"""Pictures of results. The first picture imports matplotlib."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._results import points
-from ._show import PREFIXED, shown, unit_of
+from ._show import PREFIXED, columns, shown, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.ticker import Formatter
 
-# What stands along an axis, with its text and unit: values, or the attribute of a result or the function of it that has them.
+# The quantity along an axis (values, the name of an attribute of the result, or a function of the result), its text and its unit.
 _Along = tuple[Any, str, str]
 
 
@@ -38,7 +38,7 @@ def _label(text: str, unit: str) -> str:
 
 
 def _formatter(unit: str) -> Formatter | None:
-    """Data are drawn in SI units, so that curves share their axes; the numbers along the axis have prefix and unit, "2 µm"."""
+    """Numbers along an axis have prefix and unit, "2 µm". The data stay in SI units, so that curves can share axes."""
     from matplotlib.ticker import EngFormatter
 
     return EngFormatter(unit) if unit in PREFIXED else None
@@ -63,7 +63,7 @@ def _name_axes(drawn: Axes, x: tuple[str, str], y: tuple[str, str], log: str) ->
 
 def _line(ax: Axes | None, x: _Along, y: _Along, log: str, keywords: dict[str, Any]) -> Axes:
     drawn = _axes(ax)
-    # A logarithmic axis has no place for negative values, such as tension.
+    # A logarithmic axis cannot show negative values, such as tension.
     log = "".join(axis for axis, (values, _, _) in (("x", x), ("y", y)) if axis in log and not np.any(np.asarray(values) < 0))
     drawn.plot(np.asarray(x[0]), np.asarray(y[0]), **keywords)
     _name_axes(drawn, x[1:], y[1:], log)
@@ -73,7 +73,7 @@ def _line(ax: Axes | None, x: _Along, y: _Along, log: str, keywords: dict[str, A
 
 
 def _map(ax: Axes | None, x: _Along, y: _Along, z: _Along, log: str, keywords: dict[str, Any], equal: bool = False) -> Axes:
-    """Colours over two axes; equal: a metre is as long along both."""
+    """Draws colours over two axes. equal: a metre has the same length along both."""
     drawn = _axes(ax)
     values, text, unit = z
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True} | keywords
@@ -88,7 +88,7 @@ def _map(ax: Axes | None, x: _Along, y: _Along, z: _Along, log: str, keywords: d
 
 
 def _steps(values: str, first: int = 1) -> Callable[[Any], npt.NDArray[Any]]:
-    """Numbers of the values of that attribute."""
+    """The numbers first, first + 1, … of the values of an attribute."""
     return lambda result: np.arange(first, first + len(getattr(result, values)))
 
 
@@ -105,20 +105,20 @@ _GAP, _PRESSURE, _HEIGHT = ("mean_gap", "mean gap ū", "m"), ("pressure", "press
 _SPECTRUM = ("wavenumber", "wave number q", "rad/m"), ("psd", "C(q)", "m⁴")
 _NORMAL_FORCE = (_steps("force", 0), "step of the path", "1"), ("force", "normal force F", "N")
 
-# Lines: along x and along y, which axes are logarithmic, and how the line looks.
+# Lines: the quantities along x and y, the logarithmic axes, and the style.
 _LINES: dict[type, tuple[_Along, _Along, str, dict[str, Any]]] = {
     _core.ExponentialFit: (
         (lambda fit: fit.decay_length * np.log(fit.reference_pressure / _window(fit)), *_GAP[1:]), (_window, *_PRESSURE[1:]),
         "y", {"linestyle": "--", "label": "exp(−ū/l)"},
     ),
-    # The number of spots that are at least as large, and by their size in classes that double.
+    # Number of spots at least as large, and number in classes of size that double.
     _core.ContactSpots: (("area", "area of a spot", "m²"), (_steps("area"), "spots at least as large", "1"), "xy", {"drawstyle": "steps-pre"}),
     _core.SpotStatistics: (
         (lambda spots: 2.0 ** _steps("spots_by_size", 0)(spots), "cells of a spot, at least", "1"), ("spots_by_size", "spots", "1"),
         "x", {"drawstyle": "steps-post"},
     ),
     _core.Profile: ((lambda profile: _steps("heights", 0)(profile) * profile.dx, "x", "m"), _HEIGHT, "", {}),
-    # What the summits lose, from the one that loses most.
+    # Losses of the summits in decreasing order.
     _core.AsperityDamping: (
         (lambda loss: np.arange(1, len(_falling_work(loss)) + 1), "summit", "1"), (_falling_work, "loss in a cycle", "J"), "xy", {},
     ),
@@ -148,7 +148,7 @@ def _logarithm(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def _shear_limits(result: _core.StressMap) -> dict[str, Any]:
-    """Both singularities would take all the colour."""
+    """Limits of the colours, without which the two singularities would use the whole range."""
     finite = np.abs(result.shear[np.isfinite(result.shear)])
     limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
     return {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit}
@@ -156,7 +156,7 @@ def _shear_limits(result: _core.StressMap) -> dict[str, Any]:
 
 _OVER_GRID = (lambda of: points(of.grid, "x"), "x", "m"), (lambda of: points(of.grid, "y"), "y", "m")
 
-# Maps: along x and along y, the colours, which axes are logarithmic, and how the map looks.
+# Maps: the quantities along x and y and in colour, the logarithmic axes, and the style.
 _MAPS: dict[type, tuple[_Along, _Along, _Along, str, Callable[[Any], dict[str, Any]] | None]] = {
     _core.Surface: (*_OVER_GRID, _HEIGHT, "", None),
     _core.NormalContactState: (*_OVER_GRID, ("contact_pressure", "pressure", "Pa"), "", lambda _: {"cmap": "magma"}),
@@ -183,7 +183,7 @@ _MAPS: dict[type, tuple[_Along, _Along, _Along, str, Callable[[Any], dict[str, A
     ),
 }  # fmt: skip
 
-# Results that are drawn as a part of theirs.
+# Results of which a part is drawn.
 _PARTS = {_core.MonteCarloCurve: "mean", _core.NonGaussianSurface: "surface"}
 
 
@@ -207,7 +207,7 @@ def plot(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
 def _(
     result: _core.ForceCurve, ax: Axes | None = None, fit: _core.ExponentialFit | bool = True, **keywords: Any
 ) -> Axes:
-    """The curve, and the exponential law that is fitted to it: fit=False leaves it out, an ExponentialFit is drawn in its place."""
+    """Draws the curve and an exponential law fitted to it. fit=False draws no law; an ExponentialFit is drawn instead."""
     keywords = {"marker": ".", "label": result.model or "curve"} | keywords
     if np.isnan(result.mean_gap).any():
         return _line(ax, (result.indentation, "indentation δ", "m"), (result.force, "force F", "N"), "y", keywords)
@@ -215,7 +215,7 @@ def _(
     if fit is True:
         try:
             fit = _core.fit_exponential(result)
-        except _core.Error:  # too few points in the window: there is no line to draw
+        except _core.Error:  # too few points in the window
             fit = False
     if isinstance(fit, _core.ExponentialFit):
         law = fit.reference_pressure * np.exp(-result.mean_gap / fit.decay_length)
@@ -226,7 +226,7 @@ def _(
 
 @plot.register(_core.ModelResult)
 def _(result: _core.ModelResult, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Under the name that the study has for the model, which several kinds of summits share a class for."""
+    """Draws the curve with the name of the model in the study."""
     return plot(result.curve, ax, **({"label": result.model} | keywords))
 
 
@@ -240,38 +240,63 @@ def _(result: _core.Realisation, ax: Axes | None = None, **keywords: Any) -> Axe
 
 @plot.register(_core.StudyResult)
 def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Pressure over mean gap of each model, means over the surfaces."""
+    """Draws pressure over mean gap of each model, as means over the surfaces."""
     drawn = _axes(ax)
-    every = [[mean.mean for mean in result.curve("mean_gap", model)] for model in result.models]
-    for model, gap in zip(result.models, every):
-        drawn.plot(gap, result.pressures, **({"marker": ".", "label": model} | keywords))
+    for model in result.models:
+        drawn.plot(result.curve("mean_gap", model).mean, result.pressures, **({"marker": ".", "label": model} | keywords))
     _name_axes(drawn, _GAP[1:], _PRESSURE[1:], "y")
     drawn.legend()
     return drawn
 
 
+def _bars(means: Any) -> npt.NDArray[Any] | None:
+    """Lengths of error bars below and above means: to the 95 % limits if there are any, else the numerical errors."""
+    limits = np.array([means.mean - means.low, means.high - means.mean])
+    errors = np.array([means.error] * 2) if hasattr(means, "error") else limits
+    bars = errors if np.isnan(limits).all() else limits
+    return None if np.isnan(bars).all() else bars
+
+
+@plot.register(_core.MeanCurve)
+@plot.register(_core.StatedMeanCurve)
+def _(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Draws the means with their 95 % limits."""
+    drawn = _axes(ax)
+    drawn.errorbar(result.values, result.mean, _bars(result), **({"marker": "."} | keywords))
+    x, y = (_core.quantity(name)[::-1] for name in (result.coordinate, result.quantity))
+    _name_axes(drawn, x, y, "")
+    return drawn
+
+
+@plot.register(_core.SpotCurve)
+@plot.register(_core.FlowFactorCurve)
+def _(result: Any, ax: Axes | None = None, quantity: str = "", **keywords: Any) -> Axes:
+    """Draws a quantity of the curve, by default the first."""
+    name = quantity or [name for name in columns(result) if name != result.coordinate][0]
+    x, y = ((getattr(result, one), _core.quantity(one)[1], unit_of(result, one)) for one in (result.coordinate, name))
+    return _line(ax, x, y, "x", {"marker": "."} | keywords)
+
+
 @plot.register(_core.StudySolution)
 def _(result: _core.StudySolution, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Damping constant over pressure with its 95 % intervals, of one surface its numerical errors, and that without slip."""
+    """Draws the damping constant over pressure with its 95 % intervals (numerical errors for one surface), and without slip."""
     drawn = _axes(ax)
-    means = [[one.mean for one in row] for row in (result.damping_constant, result.damping_constant_without_slip)]
-    intervals = np.array([[one.mean - one.low, one.high - one.mean] for one in result.damping_constant]).T
-    errors = np.array([[one.error, one.error] for one in result.damping_constant]).T
-    bars = np.where(np.isnan(intervals).all(), errors, intervals)
+    found = result.damping_constant
     drawn.errorbar(
-        result.pressures, means[0], bars,
+        result.pressures, found.mean, _bars(found),
         **({"marker": ".", "label": "with slip" if result.slip_followed else "without slip"} | keywords),
     )  # fmt: skip
     if result.slip_followed:
-        drawn.plot(result.pressures, means[1], "--", label="without slip")
+        drawn.plot(result.pressures, result.damping_constant_without_slip.mean, "--", label="without slip")
     _name_axes(drawn, _PRESSURE[1:], ("damping constant γ", "N s/m"), "xy")
     drawn.legend()
     return drawn
 
 
 @plot.register(_core.DampingCurve)
-def _(result: _core.DampingCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Damping constant over the quantity that changes, with its numerical error, and that without slip."""
+@plot.register(_core.DampingPointCurve)
+def _(result: _core.DampingCurve | _core.DampingPointCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Draws the damping constant with its numerical error, and the damping constant without slip."""
     drawn = _axes(ax)
     slip = not np.isnan(result.slip_work).all()
     error = result.damping_constant_error

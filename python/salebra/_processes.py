@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The argument ``comm``: from a communicator of mpi4py to the processes that hold a surface together.
+"""The argument ``comm``: converts a communicator of mpi4py to one of the library.
 
-The extension for MPI is loaded here, with the first surface that is spread: `import salebra` needs no MPI.
+This module loads the extension for MPI with the first distributed surface, so that `import salebra` needs no MPI.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ _key: int | None = None
 
 
 def _objection(comm: Any, mpi: Any) -> str:
-    """Why these processes cannot hold a surface; "" where they can."""
+    """Why these processes cannot share a surface; "" if they can."""
     if comm.Is_inter():
         return "must be the processes of one group; merge the groups first"
     try:
@@ -32,7 +32,7 @@ def _objection(comm: Any, mpi: Any) -> str:
 
 
 def communicator(comm: Any) -> Any:
-    """What the extension takes for a communicator of mpi4py. Collective where a communicator comes for the first time."""
+    """The library's communicator for one of mpi4py. Collective when it is called with a communicator for the first time."""
     global _key
     mpi: Any = importlib.import_module("mpi4py.MPI")
     if not mpi.Is_initialized() or mpi.Is_finalized():
@@ -41,7 +41,7 @@ def communicator(comm: Any) -> Any:
         raise refusal("comm", "", "is mpi4py.MPI.COMM_NULL; only its members can call this")
     if _key is None:
         _key = mpi.Comm.Create_keyval()
-    ranks = comm.Get_attr(_key)  # kept as long as the communicator, for salebra's copy of it may go in all processes alike only
+    ranks = comm.Get_attr(_key)  # cached with `comm`: all processes must free salebra's copy together
     if ranks is None:
         objections = [text for text in comm.allgather(_objection(comm, mpi)) if text]
         if objections:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 class Bar:
-    """A bar of tqdm that follows the fraction done of one stage after the other."""
+    """A bar of tqdm that shows the fraction done of the current stage."""
 
     def __init__(self) -> None:
         try:
@@ -30,7 +30,7 @@ class Bar:
         self._bar.refresh()
 
     def close(self, done: bool) -> None:
-        """Ends the bar: at 100 % where the work was done, else as it stands."""
+        """Closes the bar, at 100 % if the work was done."""
         if done:
             self._bar.n = 1.0
             self._bar.refresh()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as xarray datasets: every variable with SI units and a description."""
+"""Results as xarray datasets, whose variables have SI units and a description, and surfaces from labelled arrays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._show import columns
+from ._calls import in_si, refusal
+from ._show import columns, meaning, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -16,9 +17,14 @@ if TYPE_CHECKING:
     import xarray
 
 
+# Endings of the names of means and of the limits of their 95 % intervals.
+_PARTS = ("mean", "low", "high")
+
+
 def _variable(name: str, dims: tuple[str, ...], values: Any) -> Any:
-    units, long_name = _core.quantity(name)
-    return dims, np.asarray(values), {"units": units, "long_name": long_name}
+    stem, _, part = name.rpartition("_")
+    units, long_name = _core.quantity(stem if part in _PARTS and stem else name)
+    return dims, np.asarray(values), {"units": units, "long_name": f"{long_name}, {part}" if part in _PARTS and stem else long_name}
 
 
 def _dataset(
@@ -37,7 +43,7 @@ def _dataset(
     )
 
 
-# Coordinates, the variables on each of their combinations, and attributes, by class.
+# Coordinates, the variables on each of their combinations (none: all other columns of a table), and attributes, by class.
 _DATASETS: dict[type, tuple[tuple[str, ...], dict[tuple[str, ...], tuple[str, ...]], tuple[str, ...]]] = {
     _core.Surface: (("x", "y"), {("x", "y"): ("heights",)}, ("size_x", "size_y", "periodic", "origin")),
     _core.NormalContactState: (
@@ -45,19 +51,14 @@ _DATASETS: dict[type, tuple[tuple[str, ...], dict[tuple[str, ...], tuple[str, ..
         ("mean_pressure", "force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "residual", "iterations",
          "contact_modulus", "boundary", "converged"),
     ),
-    _core.ForceCurve: (
-        ("pressure",),
-        {("pressure",): ("force", "mean_gap", "indentation", "separation", "contact_area_fraction", "normal_stiffness",
-                         "tangential_stiffness", "converged")},
-        ("model", "nominal_area", "rms_height"),
-    ),
-    _core.LocalDecayLength: (("mean_gap",), {("mean_gap",): ("local_decay_length",)}, ()),
+    _core.ForceCurve: (("pressure",), {}, ("model", "nominal_area", "rms_height")),
+    _core.LocalDecayLength: (("mean_gap",), {}, ()),
     _core.PowerSpectrum: (("wavenumber_x", "wavenumber_y"), {("wavenumber_x", "wavenumber_y"): ("psd",)}, ("cell",)),
-    _core.RadialSpectrum: (("wavenumber",), {("wavenumber",): ("psd", "modes")}, ()),
-    _core.ProfilePsd: (("wavenumber",), {("wavenumber",): ("profile_psd", "modes")}, ("profiles", "length")),
-    _core.Correlation: (("distance",), {("distance",): ("autocorrelation", "structure", "pairs")}, ()),
-    _core.ScaleDependence: (("spacing",), {("spacing",): ("profile_slope", "profile_curvature", "min_curvature", "stencils")}, ()),
-    _core.HeightHistogram: (("height",), {("height",): ("height_density", "points")}, ("width",)),
+    _core.RadialSpectrum: (("wavenumber",), {}, ()),
+    _core.ProfilePsd: (("wavenumber",), {}, ("profiles", "length")),
+    _core.Correlation: (("distance",), {}, ()),
+    _core.ScaleDependence: (("spacing",), {}, ()),
+    _core.HeightHistogram: (("height",), {}, ("width",)),
     _core.DamperMap: (
         ("normal_amplitude", "angular_frequency"), {("normal_amplitude", "angular_frequency"): ("damping_constant",)}, (),
     ),
@@ -73,12 +74,7 @@ _DATASETS: dict[type, tuple[tuple[str, ...], dict[tuple[str, ...], tuple[str, ..
         ("angle", "radial_position"),
         {("angle", "radial_position"): ("shear", "contact_pressure"), ("angle",): ("contact_radius", "tangential_force")}, (),
     ),
-    _core.CycleResult: (
-        ("time_in_periods",),
-        {("time_in_periods",): ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area",
-                                "tangential_stiffness")},
-        ("work_per_cycle", "dissipated", "relaxation_work", "slip_work"),
-    ),
+    _core.CycleResult: (("time_in_periods",), {}, ("work_per_cycle", "dissipated", "relaxation_work", "slip_work")),
 }  # fmt: skip
 
 
@@ -88,77 +84,89 @@ def to_xarray(result: Any) -> xarray.Dataset:
         return _study_dataset(result)
     if isinstance(result, _core.StudySolution):
         return _answer_dataset(result)
-    if isinstance(result, _core.DampingCurve):
-        return _damping_dataset(result)
+    if hasattr(result, "coordinate"):
+        return _curve_dataset(result)
     axes, variables, names = _DATASETS[type(result)]
     attributes = {name: getattr(result, name) for name in names}
-    columns = {name: (dims, getattr(result, name)) for dims, of in variables.items() for name in of}
-    if isinstance(result, _core.ForceCurve):  # without what its model does not have
-        columns = {name: column for name, column in columns.items() if not np.isnan(column[1]).all()}
+    table = {} if variables else {name: (axes, column) for name, column in columns(result).items() if name not in axes}
     data = _dataset(
-        columns,
+        table | {name: (dims, getattr(result, name)) for dims, of in variables.items() for name in of},
         {axis: points(result.grid, axis) if axis in ("x", "y") else getattr(result, axis) for axis in axes},
         {name: int(value) if isinstance(value, bool) else value for name, value in attributes.items()},
     )
-    if isinstance(result, _core.Surface):  # Surface(heights) of the array alone reads them
+    if isinstance(result, _core.Surface):  # Surface(data.heights) reads them
         data.heights.attrs.update({name: data.attrs[name] for name in ("size_x", "size_y", "periodic", "origin")})
     return data.sortby("wavenumber_x") if "wavenumber_x" in axes else data
 
 
-def _damping_dataset(curve: _core.DampingCurve) -> xarray.Dataset:
+def _curve_dataset(curve: Any) -> xarray.Dataset:
     over = curve.coordinate
     variables: dict[str, tuple[tuple[str, ...], Any]] = {
         name: ((over,), column) for name, column in columns(curve).items() if name != over
     }
-    return _dataset(variables, {over: curve.values}, {"validity": curve.validity})
+    attributes = {name: getattr(curve, name) for name in ("validity", "quantity") if hasattr(curve, name)}
+    data = _dataset(variables, {over: curve.values}, attributes)
+    for name in variables:
+        unit = unit_of(curve, name)
+        of = attributes.get("quantity")
+        text = f"{_core.quantity(of)[1]}, {name}" if of else meaning(type(curve), name)[1].removesuffix(f", {unit}")
+        data[name].attrs = {"units": unit or "1", "long_name": text}
+    return data
+
+
+def from_xarray(arguments: tuple[Any, ...], keywords: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Arguments of a Surface. A DataArray over x and y, in either order, replaces its sizes by those of its coordinates, with units."""
+    named = {**dict(zip(("heights", "size_x", "size_y"), arguments)), **keywords}
+    array: Any = named.get("heights")
+    if set(getattr(array, "dims", ())) != {"x", "y"} or not hasattr(array, "coords") or len(arguments) > 3:
+        return arguments, keywords
+
+    def metres(labelled: Any, argument: str) -> float:
+        return float(in_si(f"1 {labelled.attrs['units']}", argument)) if labelled.attrs.get("units") else 1.0
+
+    for axis in array.coords.keys() & {"x", "y"}:
+        array = array.sortby(axis)
+        steps = np.diff(array.coords[axis].values.astype(float))
+        if f"size_{axis}" in named or steps.size == 0:
+            continue
+        if not np.allclose(steps, steps.mean(), rtol=1e-3, atol=0):
+            raise refusal(f"heights.{axis}", "", "is not evenly spaced; interpolate the heights to a grid")
+        named[f"size_{axis}"] = (steps.size + 1) * float(steps.mean()) * metres(array.coords[axis], f"size_{axis}")
+    # to_xarray() writes the size of the whole surface. A part of the surface has another size, and it is not periodic.
+    whole = all(np.isclose(array.attrs.get(f"size_{axis}", np.nan), named.get(f"size_{axis}", np.nan)) for axis in "xy")
+    if whole and "periodic" in array.attrs:
+        named.setdefault("periodic", bool(array.attrs["periodic"]))
+    factor = metres(array, "heights")
+    heights = array.transpose("x", "y").values
+    return (), named | {"heights": heights if factor == 1 else heights * factor}
 
 
 def points(grid: _core.Grid2D, axis: str) -> Any:
-    """Where the points of a grid lie along "x" or "y", m."""
+    """Positions of the points of a grid along "x" or "y", m."""
     return np.arange(getattr(grid, f"n{axis}")) * getattr(grid, f"d{axis}")
 
 
 def _study_dataset(result: _core.StudyResult) -> xarray.Dataset:
     columns: dict[str, tuple[tuple[str, ...], Any]] = {}
-    described = {name: (units, long_name) for name, units, long_name in (*_core._curve_columns(), *_core._damping_columns())}
     for names, of in ((_core._curve_columns(), result.curve), (_core._damping_columns(), result.damping)):
-        for name, _, _ in names:
-            if name == "pressure":
-                continue
+        for name in (name for name, _, _ in names if name != "pressure"):
             means = [of(name, model) for model in result.models]
-            for part in ("mean", "low", "high"):
-                columns[f"{name}_{part}"] = ("model", "pressure"), [[getattr(mean, part) for mean in row] for row in means]
-    data = _dataset(columns, {"model": result.models, "pressure": result.pressures}, {})
-    for column in columns:
-        name, _, part = column.rpartition("_")
-        data[column].attrs = {"units": described[name][0], "long_name": f"{described[name][1]}, {part}"}
-    return data
+            columns |= {f"{name}_{part}": (("model", "pressure"), [getattr(mean, part) for mean in means]) for part in _PARTS}
+    return _dataset(columns, {"model": result.models, "pressure": result.pressures}, {})
 
 
 def _answer_dataset(answer: _core.StudySolution) -> xarray.Dataset:
-    """Means with the ends of their 95 % intervals, and shares, over the pressure."""
-    columns: dict[str, Any] = {}
-    texts: dict[str, str] = {}
+    columns: dict[str, tuple[tuple[str, ...], Any]] = {}
     for name in ("damping_constant", "work_per_cycle", "damping_constant_without_slip", "thermal_conductance", "electrical_conductance"):
-        means = getattr(answer, name)
-        if not means:  # not asked for
-            continue
-        for part in ("mean", "low", "high"):
-            columns[f"{name}_{part}"] = ("pressure",), [getattr(mean, part) for mean in means]
-            texts[f"{name}_{part}"] = name
-    for name in ("relaxation_share", "slip_share"):
-        if len(getattr(answer, name)):
-            columns[name] = ("pressure",), getattr(answer, name)
+        if means := getattr(answer, name):  # empty if not computed
+            columns |= {f"{name}_{part}": (("pressure",), getattr(means, part)) for part in _PARTS}
+    columns |= {name: (("pressure",), getattr(answer, name)) for name in ("relaxation_share", "slip_share") if len(getattr(answer, name))}
     attributes = {"slip_followed": int(answer.slip_followed), "unknown": answer.unknown, "validity": answer.validity}
-    data = _dataset(columns, {"pressure": answer.pressures}, attributes)
-    for column, name in texts.items():
-        units, long_name = _core.quantity(name)
-        data[column].attrs = {"units": units, "long_name": f"{long_name}, {column.rpartition('_')[2]}"}
-    return data
+    return _dataset(columns, {"pressure": answer.pressures}, attributes)
 
 
 def group_to_xarray(reader: _core.ResultReader, group: str) -> xarray.Dataset:
-    """A group of a file; datasets on no coordinate of theirs are coordinates themselves, or single numbers."""
+    """A group of a file. One-dimensional datasets without a coordinate are coordinates."""
     try:
         import xarray
     except ImportError as error:

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results as text, as HTML for notebooks and as tables, from the properties of their classes and what these say of themselves."""
+"""Results as text, as HTML for notebooks and as tables. The classes describe their properties."""
 
 from __future__ import annotations
 
 import html as _html
-import re
 from collections import namedtuple
 from typing import TYPE_CHECKING, Any
 
@@ -17,17 +16,12 @@ if TYPE_CHECKING:
 
     import pandas
 
-# How a property's text names its unit, at its end: "mean gap, m." or "N/m".
-_UNIT = re.compile(
-    r"(?:^|, |\s)(m(?:\^?[²³⁴234])?|1/m(?:²|\^2)?|Pa|1/Pa|N|N/m(?:²|\^2)?|N s/m|J|J/m(?:²|\^2)|W|s|m/s|Hz|rad|rad/s|rad/m|kg|°"
-    r"|W/\(m² K\)|S/m²)(?:$|[.;,])"
-)
 PREFIXED = {"m", "Pa", "N", "J", "W", "N/m", "N s/m", "s", "Hz", "rad/s"}
 _PREFIX = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
 def properties(kind: type) -> list[str]:
-    """Names of the public properties of a class, those of its bases first, in the order of their definition."""
+    """Names of the public properties of a class in the order of their definition, those of its bases first."""
     names: dict[str, None] = {}
     for base in reversed(kind.__mro__):
         for name, value in vars(base).items():
@@ -37,21 +31,15 @@ def properties(kind: type) -> list[str]:
 
 
 def meaning(kind: type, name: str) -> tuple[str, str]:
-    """Unit ("" for pure numbers) and text of a property."""
-    said = (getattr(kind, name).__doc__ or "").strip()
-    found = _UNIT.search(said)
-    unit, long_name = _core.quantity(name)
-    if found:
-        return found.group(1), said.rstrip(".")
-    return ("" if unit == "1" else unit), (said.rstrip(".") or (long_name if long_name != name else ""))
+    """Unit ("" for pure numbers) and meaning of a property."""
+    return _core._unit_of_property(kind, name), (getattr(kind, name).__doc__ or "").strip().rstrip(".")
 
 
 def unit_of(result: Any, name: str) -> str:
-    """Unit of a column of a result, which may name it in a property of its own, as converted spectra do; "" for pure numbers."""
-    if isinstance(result, _core.DampingCurve) and name == result.coordinate:
-        unit = _core.quantity(name)[0]
-        return "" if unit == "1" else unit
-    return getattr(result, f"{name}_unit", None) or meaning(type(result), name)[0]
+    """Unit of a column, "" for pure numbers. Converted spectra and curves of means have units of their own."""
+    if name in ("mean", "low", "high", "error") and (quantity := getattr(result, "quantity", "")):
+        name = quantity
+    return getattr(result, f"{name}_unit", None) or _core._unit_of_property(type(result), name)
 
 
 def prefix_of(value: float, unit: str) -> tuple[int, str]:
@@ -85,12 +73,12 @@ def shown(value: Any, unit: str) -> str:
 
 
 def _values(result: Any) -> list[tuple[str, Any, str, str]]:
-    """Name, value, unit and text of every property that has a value."""
+    """Name, value, unit and meaning of every property that has a value."""
     found = []
     for name in properties(type(result)):
         try:
             value = getattr(result, name)
-        except (_core.Error, TypeError):  # unknown, or an object whose constructor failed
+        except (_core.Error, TypeError):  # unknown value, or an object whose constructor failed
             continue
         found.append((name, value, unit_of(result, name), meaning(type(result), name)[1]))
     return found
@@ -102,15 +90,10 @@ def text(result: Any) -> str:
     if call:
         name, arguments, keywords = call
         parts = [shown(value, "") for value in arguments]
-        parts += [f"{key}={shown(value, _unit_of(key))}" for key, value in keywords.items()]
+        parts += [f"{key}={shown(value, _core._unit_of_property(type(result), key))}" for key, value in keywords.items()]
         return f"{name}({', '.join(parts)})"
     parts = [f"{name}={shown(value, unit)}" for name, value, unit, _ in _values(result)]
     return f"{type(result).__name__}({', '.join(parts)})"
-
-
-def _unit_of(name: str) -> str:
-    unit = _core.quantity(name)[0]
-    return "" if unit == "1" else unit
 
 
 def html(result: Any) -> str:
@@ -123,10 +106,10 @@ def html(result: Any) -> str:
 
 
 def columns(result: Any) -> dict[str, Any]:
-    """The one-dimensional arrays of a result, all of the length of the first; those without any number are left out."""
+    """The one-dimensional arrays of a result that have the length of the first, without arrays that are all NaN."""
     found: dict[str, Any] = {}
-    if isinstance(result, _core.DampingCurve):  # its coordinate first, by its name
-        found[result.coordinate] = result.values
+    if (coordinate := getattr(result, "coordinate", None)) is not None:  # first, by its name
+        found[coordinate] = result.values
     for name, value, _, _ in _values(result):
         if name == "values":
             continue

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""To and from the objects of SurfaceTopography, which reads about a hundred instrument formats."""
+"""Converts surfaces to and from SurfaceTopography, which reads about a hundred instrument formats."""
 
 from __future__ import annotations
 

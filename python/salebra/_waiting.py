@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loads the extension so that its threads sleep, after a thousand looks, while they wait for each other.
+"""Loads the extension with OpenMP threads that spin only a thousand times, and then sleep, while they wait for each other.
 
-By default OpenMP's threads spin, which makes a solve on two cores more than ten times slower as soon as another program runs on one
-of them, and gains nothing on a quiet machine. OpenMP reads the choice from the environment when it is loaded; a choice of the user
-stands, and the environment is left as it was. A forked child has one thread.
+By default the threads spin. A solve on two cores is then more than ten times slower when another program runs on one of them, without
+any gain on an idle machine. OpenMP reads the setting from the environment when it is loaded. A setting of the user has priority, and the
+environment does not change. A forked child has one thread.
 """
 
 import os
@@ -20,6 +20,6 @@ else:
         for _name in _CHOICE:
             del os.environ[_name]
 
-# The threads that OpenMP keeps are not there in a forked child, which would wait for them without end.
+# A forked child does not have the threads of OpenMP and would wait for them for ever.
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=lambda: _core.set_threads(1))

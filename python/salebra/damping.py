@@ -18,7 +18,7 @@ from ._core import (
     ErrorBudget as ErrorBudget,
     FrictionMap as FrictionMap,
     JointLoss as JointLoss,
-    LargestMotion as LargestMotion,
+    MaxMotion as MaxMotion,
     LawSprings as LawSprings,
     IntervalQuadratureResult as IntervalQuadratureResult,
     Loss as Loss,

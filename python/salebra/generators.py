@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces that are made: self-affine spectra, height distributions and smooth shapes."""
+"""Generated surfaces: self-affine spectra, height distributions and smooth shapes."""
 
 from ._core import (
     AnisotropicSpectrum as AnisotropicSpectrum,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces and what is measured on them: statistics, spectra, correlation, summits, and the twin of several scans."""
+"""Surfaces and their analysis: statistics, spectra, correlation, summits, and the twin of several scans."""
 
 from ._core import (
     ArealParameters as ArealParameters,

@@ -15,6 +15,7 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -22,7 +23,8 @@
 namespace salebra::python {
 namespace {
 
-/// A NormalContactState to everything that takes one.
+/// The Python object of an adhesive contact. It is also a NormalContactState, so that every
+/// function that takes such a state accepts it.
 struct BoundAdhesiveContact : BoundContact, AdhesionOfState {};
 
 constexpr void describe(auto&& visit, std::type_identity<BoundAdhesiveContact>) {
@@ -30,7 +32,8 @@ constexpr void describe(auto&& visit, std::type_identity<BoundAdhesiveContact>) 
   describe(visit, std::type_identity<AdhesionOfState>{});
 }
 
-/// The branches as curves, whose stiffnesses are not computed.
+/// The Python object of a loading cycle: loading and unloading as force curves, whose stiffnesses
+/// are not computed.
 struct BoundCycle : AdhesiveCycleNumbers {
   ForceCurve loading, unloading;
   bool converged = false;
@@ -73,8 +76,8 @@ potential : {"exponential", "maugis", "van_der_waals"}
   nb::class_<BoundAdhesiveContact, BoundContact> state(
       m, "AdhesiveContactState", R"(Result of an adhesive contact; its fields are views, not copies.
 
-`contact_pressure` is that of the cells that touch, `tension` acts between all cells, and mean pressure and force are those of their
-difference. Unless `converged`, the numbers must not be used as the answer.
+`contact_pressure` acts in the cells that touch and `tension` between all cells; mean pressure and force are those of the difference of
+the two. Do not use the numbers unless `converged`.
 )");
   auto bound = nb::borrow<nb::class_<BoundAdhesiveContact>>(state);
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
@@ -123,28 +126,28 @@ void bind_press(nb::module_& m) {
 
 .. math:: \min_{g\ge0}\ \tfrac12\langle(g+h)\,k(g+h)\rangle + \langle\phi(g)\rangle + P\langle g\rangle
 
-by ordinary contacts, each of which lowers this energy. Exactly one of pressure, mean_gap, indentation and force is given; a pressure
+by a sequence of non-adhesive contacts, each of which lowers this energy. Exactly one of pressure, mean_gap, indentation and force is given; a pressure
 or force may pull. Solutions are local minima: they depend on the start.
 
 Parameters
 ----------
 surface : Surface
 material : Material or float
-    Or E* > 0 alone, Pa.
+    A number is E* > 0, Pa.
 adhesion : Adhesion
 pressure, mean_gap, indentation, force : float, optional
     Pa, m, m, N.
 tolerance : float
-    Of the residual of the tension, 1e-10 … 1e-1.
+    Tolerance of the residual of the tension, 1e-10 … 1e-1.
 max_outer_iterations : int
-    Ordinary contacts.
+    Maximum number of non-adhesive contacts.
 boundary : {"periodic", "free"}
 hardness : float
-    Of a first loading under a pressure or force > 0: pressure less tension rises to it and no further, Pa.
+    Hardness of a first loading under a pressure or force > 0, Pa: the maximum of pressure minus tension.
 start : AdhesiveContactState, optional
-    State whose branch is followed, for loading and unloading.
+    State from which the solution continues on the same branch, for loading and unloading.
 force_coarse : bool
-    Solves with less than 1.4 cells in the process zone as well.
+    Solve even with less than 1.4 cells in the process zone.
 progress : bool or callable
 
 Returns
@@ -154,7 +157,7 @@ AdhesiveContactState
 )");
 
   described_class<BoundCycle>(m, "AdhesiveCycle",
-                              "Loading and unloading of an adhesive contact, step by step.");
+                              "Loading and unloading of an adhesive contact in steps.");
   m.def(
       "adhesive_cycle",
       [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
@@ -209,7 +212,7 @@ AdhesiveContactState
       nb::arg("max_outer_iterations") = AdhesiveContactOptions().max_outer_iterations,
       nb::arg("boundary") = "periodic", nb::arg("force_coarse") = false,
       nb::arg("progress") = false,
-      R"(Presses a surface from position to position and draws it off again, each contact from the one before.
+      R"(Presses a surface step by step and pulls it off again. Each contact starts from the previous one.
 
 Parameters
 ----------
@@ -217,10 +220,10 @@ surface : Surface
 material : Material or float
 adhesion : Adhesion
 pressures, mean_gaps, indentations : array_like, optional
-    One of them, from the loosest position to the closest, Pa or m. Under pressures the pull-off is bracketed to 2 %; at gaps the force
-    passes its minimum, and the cycle has its work.
+    Give one of them, from the loosest to the tightest contact, Pa or m. With pressures the pull-off is bracketed to 2 %; with gaps the
+    force passes its minimum, and the work of the cycle is known.
 unload : bool
-    False: loading alone.
+    False: only load.
 tolerance, max_outer_iterations, boundary, force_coarse, progress
     As for :func:`press_adhesive`.
 )");
@@ -230,7 +233,7 @@ void bind_indenters(nb::module_& m) {
   described_class<AdhesivePoint>(m, "AdhesivePoint", "One equilibrium of an adhesive indenter.");
   m.def("jkr_contact", &jkr_contact, nb::arg("profile"), nb::arg("contact_modulus"),
         nb::arg("work"), nb::arg("contact_radius"),
-        R"(JKR, adhesion of no range, of any profile by its image.
+        R"(Equilibrium by the JKR model (adhesion without range) for any profile, from its image.
 
 .. math:: \delta = g(a) - \sqrt{2\pi wa/E^*}, \qquad F = 2E^*\left[a\delta - \int_0^a g\,dx\right]
 
@@ -239,19 +242,19 @@ References
 Johnson et al. (1971), doi:10.1098/rspa.1971.0141.
 )");
   m.def("jkr_pull_off", &jkr_pull_off, nb::arg("profile"), nb::arg("contact_modulus"),
-        nb::arg("work"), "The state of the least force; −(3/2)πwR of a paraboloid.");
-  m.def(
-      "dmt_contact", &dmt_contact, nb::arg("radius"), nb::arg("contact_modulus"), nb::arg("work"),
-      nb::arg("contact_radius"),
-      "DMT, adhesion outside a contact that it does not deform: F = 4E*a³/(3R) − 2πwR, δ = a²/R.");
+        nb::arg("work"), "The state of minimum force; −(3/2)πwR for a paraboloid.");
+  m.def("dmt_contact", &dmt_contact, nb::arg("radius"), nb::arg("contact_modulus"), nb::arg("work"),
+        nb::arg("contact_radius"),
+        "Equilibrium by the DMT model (adhesion does not deform the contact): F = 4E*a³/(3R) − "
+        "2πwR, δ = a²/R.");
   nb::class_<MaugisDugdale>(m, "MaugisDugdale",
-                            "A paraboloid under a tension w/ρ as far as the gap is below ρ, after "
+                            "A paraboloid under a tension w/ρ wherever the gap is below ρ: "
                             "Maugis (1992), doi:10.1016/0021-9797(92)90285-T.")
       .def(nb::init<double, double, double, double>(), nb::arg("radius"),
            nb::arg("contact_modulus"), nb::arg("work"), nb::arg("range"))
       .def("contact", &MaugisDugdale::contact, nb::arg("contact_radius"),
            "The state at a contact radius >= 0, m.")
-      .def("pull_off", &MaugisDugdale::pull_off, "The state of the least force.")
+      .def("pull_off", &MaugisDugdale::pull_off, "The state of minimum force.")
       .def_prop_ro("transition_parameter", &MaugisDugdale::transition_parameter,
                    "λ, 1.16 times Tabor's parameter.");
   m.def(
@@ -266,16 +269,16 @@ Johnson et al. (1971), doi:10.1098/rspa.1971.0141.
       },
       nb::arg("contact"), nb::arg("pull_off"), nb::kw_only(), nb::arg("force") = nb::none(),
       nb::arg("indentation") = nb::none(),
-      R"(The equilibrium under a force, N, or at an indentation, m, on the branch from the pull-off on.
+      R"(The equilibrium under a force, N, or at an indentation, m, on the branch that starts at the pull-off.
 
 Parameters
 ----------
 contact : callable
-    The state of a contact radius, such as ``ball.contact`` of :class:`MaugisDugdale` or ``lambda a: jkr_contact(profile, 1e6, 0.05, a)``.
+    Returns the state at a contact radius, such as ``ball.contact`` of :class:`MaugisDugdale` or ``lambda a: jkr_contact(profile, 1e6, 0.05, a)``.
 pull_off : AdhesivePoint
-    Of the same model.
+    Pull-off of the same model.
 force, indentation : float, optional
-    One of them; a force may pull.
+    Give one of them; a force may pull.
 )");
   m.def("tabor_parameter", &tabor_parameter, nb::arg("radius"), nb::arg("contact_modulus"),
         nb::arg("work"), nb::arg("range"), "μ = (R w²/(E*² ρ³))^(1/3).");
@@ -283,7 +286,9 @@ force, indentation : float, optional
       "suggested_adhesion_model",
       [](double parameter) { return std::string(name_of(suggested_model(parameter))); },
       nb::arg("tabor_parameter"),
-      "\"dmt\" below 0.1, \"jkr\" above 5, \"maugis_dugdale\" between.");
+      "Name of the model for a Tabor parameter: \"dmt\" below 0.1, \"jkr\" above 5, "
+      "\"maugis_dugdale\" "
+      "between.");
 }
 
 }  // namespace

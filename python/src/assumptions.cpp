@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the assumptions behind a damping constant, of the loss with slip, of steady sliding, and
-// of joints.
+// Bindings of the assumptions behind a damping constant, of the loss with slip, of steady sliding,
+// and of joints.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -8,8 +8,8 @@
 #include <nanobind/stl/vector.h>
 
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 
 #include "bindings.hpp"
 #include "damping/max_motion.hpp"
@@ -34,7 +34,8 @@ std::string verdicts(const Assumptions& assumptions) {
 
 namespace {
 
-/// Warns for functions that hold the mean indentation and nothing else.
+/// Warns if the mean force with the oscillation is much larger than without, since the mean
+/// indentation is held; for functions that cannot hold the mean force.
 void warn_of_held_indentation(const ContactLaw& law, double indentation, double mean_force) {
   DampingResult mean;
   mean.force = law.force(indentation);
@@ -45,37 +46,41 @@ void warn_of_held_indentation(const ContactLaw& law, double indentation, double 
 void bind_contact_parameters(nb::module_& m) {
   auto parameters = described_class<ContactParameters>(
       m, "ContactParameters",
-      "What is known of a contact in addition to its law and its motion. NaN: "
-      "not known.");
+      "Parameters of a contact in addition to its law and its motion. NaN: not known.");
   keyword_constructor(parameters, 0);
 }
 
 void bind_assumption_classes(nb::module_& m) {
-  described_class<Assumption>(m, "Assumption", "One assumption: its value, its limits, and what follows.");
-  described_class<AssumptionVerdict>(m, "AssumptionVerdict", "An assumption in words, with what to do where it fails.");
-  described_class<LargestMotion>(m, "LargestMotion",
-                                 "The largest motion that keeps the assumptions of slip to 5 %.");
+  described_class<Assumption>(m, "Assumption",
+                              "One assumption: its value, its limits, and its verdict.");
+  described_class<AssumptionVerdict>(m, "AssumptionVerdict",
+                                     "An assumption as a sentence, with the remedy if it fails.");
+  described_class<MaxMotion>(m, "MaxMotion",
+                             "The largest motion for which slip changes the loss by at most 5 %.");
   described_class<Assumptions>(
-      m, "Assumptions", "What a damping constant without slip takes for granted, each with a verdict.")
+      m, "Assumptions", "The assumptions of a damping constant without slip, each with a verdict.")
       .def(
           "verdicts",
           [](const Assumptions& self, bool slip_followed) {
             return verdicts_of({&self, 1}, slip_followed);
           },
           nb::arg("slip_followed") = false,
-          "The verdicts in words, worst first. slip_followed: the loss is that with slip, which "
-          "then is no condition.")
+          "The assumptions as sentences, worst first. slip_followed: the loss includes slip, so "
+          "that no "
+          "slip is no assumption.")
       .def_prop_ro(
           "validity",
           [](const Assumptions& self) {
             return std::string(name_of(validity_of(verdicts_of({&self, 1}, false))));
           },
-          "'valid', 'valid with care', 'not valid' or 'not checked', of a loss without slip.")
-      .def("__repr__", [](const Assumptions& self) { return "Assumptions(" + verdicts(self) + ")"; });
+          "'valid', 'valid with care', 'not valid' or 'not checked', for a loss without slip.")
+      .def("__repr__",
+           [](const Assumptions& self) { return "Assumptions(" + verdicts(self) + ")"; });
   m.def(
       "assumptions_of",
       [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
-         std::optional<double> force, const ContactParameters* parameters, const ForceCurve* curve) {
+         std::optional<double> force, const ContactParameters* parameters,
+         const ForceCurve* curve) {
         const OperatingPoint point = operating_point_of(indentation, force);
         return unlocked([&] {
           const double mean = indentation_of(law, point);
@@ -88,22 +93,23 @@ void bind_assumption_classes(nb::module_& m) {
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("parameters") = nb::none(),
+      nb::arg("curve") = nb::none(),
       R"(The assumptions of relaxation_damping() for this contact and motion, with the limits at which the loss changes by 5 and 20 %.
 
 Parameters
 ----------
 law : ContactLaw
 motion : EqualFrequency, Drag or TwoFrequencies
-    Drag with a velocity of NaN: not known; the largest one is found.
+    A Drag may have an unknown velocity, NaN: the largest allowed velocity is found.
 indentation : float, optional
-    Mean indentation, m, on the law's own scale …
+    Mean indentation, m, on the scale of the law.
 force : float, optional
-    … or the force at it, N; exactly one of the two.
+    Force at the mean indentation, N. Give exactly one of indentation and force.
 parameters : ContactParameters, optional
-    What is known of friction, hardness, density and the like; without it the largest motions are those of μ = 0.1, 0.3 and 1.
+    Friction, hardness, density and the like, as far as known; without friction the largest motions are given for μ = 0.1, 0.3 and 1.
 curve : ForceCurve, optional
-    The curve that the law is made of; says pressures and size.
+    The curve of which the law was made: gives pressures and size.
 )");
 }
 
@@ -122,16 +128,17 @@ void bind_loss_with_slip(nb::module_& m) {
       },
       nb::arg("law"), nb::arg("motion"), nb::arg("mean_indentation"), nb::kw_only(),
       nb::arg("friction_coefficient"), nb::arg("excursion") = ContactParameters::unknown,
-      "The loss of a cycle with slip. Case (b) without an excursion (m): sliding without end, all "
-      "levels slip; with one: mean of a cycle on the way there and back, and over the phases of "
-      "its "
-      "turning points.");
+      "The loss of a cycle with slip. Case (b) without an excursion (m) slides without end, and "
+      "all "
+      "springs slip. With an excursion the loss is the mean over the forward and the backward "
+      "motion and "
+      "over the phases of the turning points.");
 }
 
 void bind_regime_map(nb::module_& m) {
   auto map = described_class<RegimeMap>(
       m, "RegimeMap",
-      "What slips in a slow tangential motion, over its velocity and its excursion.");
+      "Regimes of slip in a slow tangential motion, over its velocity and its excursion.");
   result_methods(map, true);
   m.def(
       "regime_map",
@@ -146,14 +153,15 @@ void bind_regime_map(nb::module_& m) {
       nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
       nb::arg("angular_frequency"), nb::arg("velocities"), nb::arg("excursions"), nb::kw_only(),
       nb::arg("friction_coefficient"),
-      "No slip, partial slip or sliding in slow motion over velocities (m/s) and excursions (m) "
-      "under a normal oscillation, and the loss over that without slip.");
+      "Regime (no slip, partial slip, sliding) and loss over the loss without slip, for slow "
+      "motions of "
+      "these velocities (m/s) and excursions (m) under a normal oscillation.");
 }
 
 void bind_steady_sliding(nb::module_& m) {
   described_class<SteadySliding>(m, "SteadySliding",
                                  "A contact that slides steadily while it oscillates in the normal "
-                                 "direction; NaN is unknown.");
+                                 "direction; unknown numbers are NaN.");
   m.def(
       "steady_sliding",
       [](const ContactLaw& law, const Drag& motion, double friction_coefficient,
@@ -173,8 +181,8 @@ void bind_steady_sliding(nb::module_& m) {
 
 void bind_joint(nb::module_& m) {
   described_class<JointLoss>(m, "JointLoss",
-                             "What a joint loses, and how stiff it is, under a tangential "
-                             "oscillation; NaN is unknown.");
+                             "Loss and stiffness of a joint under a tangential oscillation; "
+                             "unknown numbers are NaN.");
   m.def(
       "joint_loss",
       [](const ContactLaw& law, double friction_coefficient,
@@ -203,8 +211,8 @@ void bind_joint(nb::module_& m) {
       nb::arg("normal_amplitude") = 0.0, nb::arg("phase") = 0.0, nb::arg("steps") = 2000,
       R"(Loss and stiffness in partial slip under a tangential oscillation, by displacement (m) or by force (N).
 
-The normal force is constant, and the answer a quadrature; with a normal_amplitude u_z (m) the indentation oscillates, with the phase (rad)
-of the tangential motion against it, and the springs of the law are followed step by step.
+With a constant normal force the result is a quadrature. With a normal_amplitude u_z (m) the indentation oscillates, the tangential motion
+has a phase (rad) against it, and the springs of the law are followed step by step.
 )");
 }
 

@@ -3,8 +3,8 @@
 
 #include <nanobind/nanobind.h>
 
-/// One function for each module of the library; module.cpp calls them from the lowest layer up, so
-/// that a signature can name every type.
+/// Each function binds one module of the library. module.cpp calls them in the order of the layers,
+/// from the lowest up, so that a signature can name every type of lower layers.
 namespace salebra::python {
 
 void bind_base(nanobind::module_& module);

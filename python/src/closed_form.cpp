@@ -24,18 +24,17 @@ void bind_closed_form(nb::module_& parent) {
                           motion);
       },
       nb::arg("spring_depth"), nb::arg("motion"),
-      R"(How far a spring at `spring_depth` (m) is released, m; valid at any amplitude.
+      R"(Distance, m, by which a spring at `spring_depth` (m) is released; valid at any amplitude.
 
 .. math:: s = 2u_x\sqrt{1-(z_0/u_z)^2}\,\sin\varphi_0 \;\text{Eq. (7)}, \qquad s = 2(v/\omega)\arccos(z_0/u_z) \;\text{Eq. (13)}
 )");
   m.def("spring_energy", &cf::spring_energy, nb::arg("tangential_modulus"),
         nb::arg("released_distance"), nb::arg("spring_width"),
         "Eq. (8): energy ½G*s²Δx of one spring, J.");
-  m.def(
-      "intermittent_contact", &cf::intermittent_contact, nb::arg("spring_depth"),
-      nb::arg("normal_amplitude"),
-      "Eq. (9): ``−|u_z| < z0 < |u_z|``, the points that are in contact during a part of the cycle "
-      "only.");
+  m.def("intermittent_contact", &cf::intermittent_contact, nb::arg("spring_depth"),
+        nb::arg("normal_amplitude"),
+        "Eq. (9): ``−|u_z| < z0 < |u_z|``, whether a point is in contact during only a part of the "
+        "cycle.");
   m.def(
       "work_per_cycle_by_slope",
       [](double tangential_modulus, double edge_slope, const Oscillation& motion) {
@@ -64,7 +63,7 @@ void bind_closed_form(nb::module_& parent) {
       nb::arg("released_distance"),
       "Eq. (10): W = (G*/c) ∫ s² dz0 over the interval of Eq. (9), both edges of the contact, by "
       "adaptive quadrature, J. "
-      "released_distance: a function of the level.");
+      "released_distance: a function of the spring depth.");
   m.def(
       "work_per_cycle",
       [](double modulus_ratio, double force_curvature, const Oscillation& motion) {

@@ -18,6 +18,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -39,7 +40,7 @@ void bind_material(nb::module_& m) {
           },
           nb::arg("young") = infinite, nb::arg("poisson") = 0.0);
 
-  described_class<Material>(m, "Material", R"(What a contact knows of its two bodies.
+  described_class<Material>(m, "Material", R"(Elastic constants of the two bodies of a contact.
 
 .. math:: \frac{1}{E^*} = \sum_i\frac{1-\nu_i^2}{E_i} \quad\text{Eq. (1)}, \qquad
           \frac{1}{G^*} = \sum_i\frac{2-\nu_i}{4G_i} \quad\text{Eq. (2)}
@@ -51,7 +52,7 @@ Parameters
 contact_modulus : float
     E*, Pa.
 poisson : float, optional
-    Of the one elastic body (the other is rigid): gives G* = 2E*(1−ν)/(2−ν).
+    Poisson's ratio of the elastic body if the other is rigid: gives G* = 2E*(1−ν)/(2−ν).
 tangential_modulus : float, optional
     G*, Pa, instead of `poisson`. With neither, only normal contact can be computed.
 )")
@@ -72,22 +73,25 @@ tangential_modulus : float, optional
       .def_static("of_bodies", &Material::of_bodies, nb::arg("first"),
                   nb::arg("second") = ElasticBody{},
                   "The material of two elastic bodies; at least one of them is not rigid.");
-  m.def("_warning_of_pressure", &warning_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
-        "What is most likely a mistake in the unit of one of them, or None.");
+  m.def("_warning_of_pressure", &warning_of_pressure, nb::arg("pressure"),
+        nb::arg("contact_modulus"),
+        "Warning about a probable mistake in the unit of one of them, or None.");
 }
 
 void bind_state(nb::module_& m) {
   auto state = described_class<BoundContact>(
       m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
 
-Unless `converged`, the numbers describe the last iterate and must not be used as the answer.
+Unless `converged`, the numbers describe the last iterate: do not use them.
 )");
   state
       .def_prop_ro(
           "rows",
-          [](const BoundContact& self) { return range_of(RowPartition(self.communicator, self.grid.nx)); },
+          [](const BoundContact& self) {
+            return range_of(RowPartition(self.communicator, self.grid.nx));
+          },
           nb::sig("def rows(self) -> range"),
-          "Rows ix of the fields that this process holds, as those of the surface.")
+          "Rows ix of the fields that this process holds; the same as those of the surface.")
       .def(
           "gather",
           [](nb::handle_t<BoundContact> self, int root) {
@@ -106,7 +110,7 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
           },
           nb::arg("root") = 0,
           nb::sig("def gather(self, root: int = 0) -> NormalContactState | None"),
-          "The state with its whole fields in one process, None in the others; see "
+          "The state with complete fields in one process, None in the others; see "
           ":meth:`Surface.gather`.");
   result_methods(state, true);
 }
@@ -147,19 +151,19 @@ void bind_presses(nb::module_& m) {
       nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
       nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
       nb::arg("progress") = false,
-      R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a nominal pressure, or by its force, mean gap or indentation.
+      R"(Frictionless contact of a rigid rough surface with an elastic half-space at a nominal pressure, force, mean gap or indentation.
 
 .. math:: \min_p\ \tfrac12\,p\cdot Gp - p\cdot h, \quad 0\le p\le \text{hardness},\ \langle p\rangle = \text{nominal pressure};
           \qquad \hat u(q) = \frac{2\hat p(q)}{E^*|q|}
 
-by nested conjugate gradients on the contact set. One transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell.
-Exactly one of pressure, mean_gap, indentation and force is given.
+by nested conjugate gradients on the contact set. Each of the 15 to 100 iterations costs one pair of transforms; the solver needs 57 to
+67 bytes per cell. Give exactly one of pressure, mean_gap, indentation and force.
 
 Parameters
 ----------
 surface : Surface
 material : Material or float
-    Or E* > 0 alone, Pa.
+    A number is E* > 0, Pa.
 pressure : float, optional
     Nominal, > 0, Pa, below the hardness.
 mean_gap : float, optional
@@ -171,27 +175,27 @@ force : float, optional
 tolerance : float
     Stop at e_c = Σp(g − g_min)/(Σp·h_rms) < tolerance, checked in double precision; 1e-14 … 1e-1.
 max_iterations : int
-    On the finest level.
+    On the finest grid level.
 boundary : {"periodic", "free"}
-    "periodic": the cell repeats for ever; "free": one loaded patch on an infinite half-space.
+    "periodic": the surface repeats infinitely; "free": one loaded patch on an infinite half-space.
 precision : {"mixed", "full"}
     "mixed": transforms in float, residuals and acceptance in double.
 hardness : float
-    Largest pressure that the bodies carry, Pa: cells saturate there.
+    Maximum pressure that the bodies carry, Pa: cells saturate at it.
 initial_pressure : array_like, optional
-    Of the shape of the heights. Start of the iteration, Pa; not copied if C-contiguous float64.
+    Start of the iteration, Pa, in the shape of the heights; not copied if C-contiguous float64.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
 Returns
 -------
 NormalContactState
-    Unless `converged`, its numbers describe the last iterate and must not be used as the answer.
+    Unless `converged`, its numbers describe the last iterate: do not use them.
 
 Raises
 ------
 InvalidInput
-    Before any work. Non-convergence is returned, not raised.
+    Before any work. A solve that does not converge returns its state and raises nothing.
 
 References
 ----------
@@ -215,16 +219,16 @@ doi:10.1115/1.2833523.
       },
       nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("progress") = false,
-      R"(Normal stiffness K = dF/dδ of a state's contact set, by one linear solve with the set held, N/m.
+      R"(Normal stiffness K = dF/dδ of a state, N/m, by one linear solve on its fixed contact set.
 
-Infinite for a periodic cell in full contact, NaN where the solve did not converge or was interrupted.
+Infinite for a periodic surface in full contact; NaN if the solve did not converge or was interrupted.
 )");
 }
 
 void bind_first_loading(nb::module_& m) {
   described_class<FirstLoading>(m, "FirstLoading",
-                                "What a plastic first loading did; NaN where there was none.")
-      .def_prop_ro("yielded", &FirstLoading::yielded, "Whether any of the surface flowed.");
+                                "Results of a plastic first loading; NaN if there was none.")
+      .def_prop_ro("yielded", &FirstLoading::yielded, "Whether any part of the surface yielded.");
   m.def(
       "after_first_loading",
       [](const BoundSurface& surface, const MaterialArgument& material, double pressure,
@@ -253,36 +257,36 @@ void bind_first_loading(nb::module_& m) {
       nb::arg("hardness"), nb::arg("normal_amplitude") = 0.0, nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
       nb::arg("progress") = false,
-      R"(The surface that a first loading leaves, whose pressures rise to the hardness and no further.
+      R"(The surface after a plastic first loading, in which pressures are limited to the hardness.
 
-Where the pressure is the hardness, the surface sinks in for good. Unloading, and every later cycle below the first load, is the
-elastic contact of the surface that is returned.
+Where the pressure reaches the hardness, the surface sinks in permanently. Unloading, and every later cycle below the first load, is the
+elastic contact of the returned surface.
 
 Parameters
 ----------
 surface : Surface
 material : Material or float
-    Or E* > 0 alone, Pa.
+    A number is E* > 0, Pa.
 pressure : float
-    Largest, > 0, Pa, below the hardness.
+    Maximum nominal pressure, > 0, Pa, below the hardness.
 hardness : float
     > 0, Pa.
 normal_amplitude : float
-    u_z >= 0, m: the first loading ends at the largest pressure of an oscillation about the nominal one.
+    u_z >= 0, m: the first loading ends at the maximum pressure of an oscillation about the nominal pressure.
 tolerance, max_iterations, boundary, progress
     As for :func:`press`.
 
 Returns
 -------
 (Surface, FirstLoading)
-    What is left, and what flowed.
+    The residual surface, and the numbers of the first loading.
 
 Raises
 ------
 InvalidInput
-    For a hardness that is not above the mean pressure.
+    If the hardness is not above the mean pressure.
 NotConverged
-    Where a contact did not reach its tolerance.
+    If a contact did not reach its tolerance.
 
 References
 ----------
@@ -301,12 +305,13 @@ void bind_spots(nb::module_& m) {
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
         return unlocked([&] {
-          return contact_spots(state.contact_pressure, state.grid, state.boundary, state.communicator);
+          return contact_spots(state.contact_pressure, state.grid, state.boundary,
+                               state.communicator);
         });
       },
       nb::arg("state"),
-      "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries. Of a "
-      "state that is spread over processes each gets all spots.");
+      "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries. If the "
+      "state is distributed over processes, each process gets all spots.");
 }
 
 }  // namespace

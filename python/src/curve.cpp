@@ -24,20 +24,21 @@ namespace {
 
 void bind_force_curve(nb::module_& m) {
   auto curve = described_class<ForceCurve>(
-      m, "ForceCurve", R"(What every contact model returns, from the lowest force to the highest.
+      m, "ForceCurve",
+      R"(Force, gap, area and stiffness of a contact over the load, sorted by force. Every contact model returns one.
 
-Columns are views of one table, not copies; a quantity that the model does not have is NaN.
+Columns are views of one table, not copies; quantities that the model does not have are NaN.
 
 Parameters
 ----------
 nominal_area : float
     A0, m².
 indentation, mean_gap, separation, force, pressure, contact_area_fraction, normal_stiffness, tangential_stiffness : array_like
-    Columns of equal length; force and pressure give each other.
+    Columns of equal length; one of force and pressure follows from the other.
 rms_height : float
-    Of the surface, m.
+    Rms height of the surface, m.
 model : str
-    Such as "measured".
+    Name of the model, such as "measured".
 )");
   curve.def(
       "__init__",
@@ -123,26 +124,26 @@ Parameters
 ----------
 surface : Surface
 material : Material or float
-    Or E* > 0 alone, Pa: without K_t.
+    A number is E* > 0, Pa; the curve then has no K_t.
 pressures : array_like
     > 0, increasing, Pa.
 stiffness : bool
-    K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known.
+    Compute K by a punch solve on each contact set, and K_t = (G*/E*)K if G* is known.
 stick : bool
-    With stiffness: K_t along x by a stick solve on each contact set instead.
+    With `stiffness`: compute K_t along x by a stick solve on each contact set instead.
 concurrent_loads : int
-    Loads solved at the same time, each with 50 to 60 bytes a cell of its own; 0: as many as there are threads. A surface that is spread
-    over processes has one load after the other.
+    Loads solved at the same time, each with its own 50 to 60 bytes per cell; 0: as many as there are threads. Surfaces that are
+    distributed over processes solve one load after the other.
 tolerance, max_iterations, boundary, precision, hardness
-    As for :func:`press`. With a hardness this is the curve of first loading; that of unloading is the curve of the
-    surface that :func:`after_first_loading` returns.
+    As for :func:`press`. With a hardness this is the curve of first loading; for unloading, sweep the surface that
+    :func:`after_first_loading` returns.
 progress : bool or callable
-    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop: the loads finished by then are returned.
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop; the finished loads are returned.
 
 Returns
 -------
 ForceCurve
-    Samples that did not converge are kept and marked.
+    With `converged` False for the samples that did not converge.
 )");
 }
 
@@ -152,11 +153,11 @@ std::optional<PressureWindow> window_of(const std::optional<std::pair<double, do
 }
 
 void bind_fit(nb::module_& m) {
-  described_class<PressureWindow>(m, "PressureWindow", "Samples that a fit rests on.");
+  described_class<PressureWindow>(m, "PressureWindow", "The range of pressures that a fit uses.");
   described_class<ExponentialFit>(
       m, "ExponentialFit",
-      "p = reference_pressure·exp(−ū/decay_length). The 95 % limits are those of a curve "
-      "with independent noise; the residuals of a computed curve are misfit.");
+      "p = reference_pressure·exp(−ū/decay_length). The 95 % limits assume independent noise; the "
+      "residuals of a computed curve are misfit of the law instead.");
   m.def(
       "fit_exponential",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -172,11 +173,11 @@ Parameters
 ----------
 curve : ForceCurve
 window : (float, float), optional
-    Least and largest pressure, Pa; none: the samples with ū between 1 and 2.5 h_rms, where the law is at its best.
+    Minimum and maximum pressure, Pa; by default the samples with ū between 1 and 2.5 h_rms, where the law fits best.
 weights : {"spacing", "equal", "force"}
-    What a sample counts for. "spacing": the length of ū that it stands for, half way to its neighbours, so that l is a property of
-    the curve and its window and not of how the loads are spread: for a computed curve. "equal": one, for values whose relative errors
-    are alike. "force": p², for values whose absolute errors are alike, such as those of a load cell.
+    Weight of a sample. "spacing", for computed curves: the length of ū that the sample represents, half way to its neighbours; l then
+    does not depend on the spacing of the loads. "equal", for equal relative errors: 1. "force", for equal absolute errors, such as those
+    of a load cell: p².
 
 Raises
 ------
@@ -186,13 +187,13 @@ InvalidInput
 Notes
 -----
 The interval holds for independent errors of ln p. With a computed curve it measures the misfit of the law instead, and
-:func:`test_exponential` tells whether that is systematic.
+:func:`test_exponential` shows whether the misfit is systematic.
 )");
   described_class<ExponentialTest>(
       m, "ExponentialTest",
-      "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
+      "Test of the exponential law: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
       .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05,
-           "The law is refuted at this level.");
+           "Whether the test refutes the law at this significance level.");
   m.def(
       "test_exponential",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -200,9 +201,10 @@ The interval holds for independent errors of ln p. With a computed curve it meas
         return test_exponential(curve, window_of(window), weights.value("weights"));
       },
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
-      "Tests the exponential law over the window and with the weights of :func:`fit_exponential`; "
-      "four points at least.");
-  described_class<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.");
+      "Tests the exponential law over the window and with the weights of :func:`fit_exponential`. "
+      "Needs at least four points.");
+  described_class<WindowSensitivity>(m, "WindowSensitivity",
+                                     "How much a fit depends on its window.");
   m.def(
       "window_sensitivity",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -210,8 +212,8 @@ The interval holds for independent errors of ln p. With a computed curve it meas
         return window_sensitivity(curve, window_of(window), weights.value("weights"));
       },
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
-      "The least and largest decay length over every run of samples that holds at least half of "
-      "the window, with the weights of :func:`fit_exponential`.");
+      "Minimum and maximum decay length over all runs of samples that cover at least half of the "
+      "window, with the weights of :func:`fit_exponential`.");
   auto local = described_class<LocalDecayLength>(m, "LocalDecayLength",
                                                  "l(ū) = −dū/d ln p between consecutive samples.");
   result_methods(local, true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the cycle without slip, its contact levels, and the level quadrature.
+// Bindings of the cycle without slip, its contact sets, and the interval quadrature.
 #include <fmt/format.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
@@ -14,16 +14,16 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/joint.hpp>
 #include <salebra/damping/interval_quadrature.hpp>
+#include <salebra/damping/joint.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/contact_sets.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
-#include "interop/contact_sets.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -51,7 +51,8 @@ void bind_contact_sets(nb::module_& m) {
 Parameters
 ----------
 function : callable
-    Of the indentation, m; returns (contact set (nx, ny) of bool, force in N). Deterministic: it is asked once for each.
+    Takes the indentation, m, and returns (contact set (nx, ny) of bool, force in N). It must be deterministic: it is called once for
+    each indentation.
 grid : Grid2D
 
 See Also
@@ -61,7 +62,8 @@ boundary_element_contact_sets : the contact_sets of a surface.
       .def(
           "__init__",
           [](BoundContactSets* self, const ContactSetFunction& given, const Grid2D& grid) {
-            // The function may be dropped by a thread without the interpreter's lock.
+            // The function may be released by a thread that does not hold the interpreter's lock,
+            // so the lock is taken for this.
             const std::shared_ptr<nb::object> held(new nb::object(given.function),
                                                    [](nb::object* object) {
                                                      const nb::gil_scoped_acquire locked;
@@ -109,7 +111,8 @@ boundary_element_contact_sets : the contact_sets of a surface.
       },
       nb::arg("surface"), nb::arg("material"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      "The levels of a surface by boundary elements; the boundary must be that of the simulation. "
+      "The contact sets of a surface by boundary elements. `boundary` must be that of the "
+      "simulation. "
       "Copies the surface.");
 }
 
@@ -119,7 +122,7 @@ void bind_result(nb::module_& m) {
   result_methods(result, true);
 }
 
-// A simulation with its checkpoint: simulate(options, progress).
+// Runs simulate(options, progress), and writes and reads the checkpoint if there is one.
 template <class Simulate>
 CycleResult simulation(CycleOptions options, const std::optional<std::filesystem::path>& checkpoint,
                        double checkpoint_every, bool resume, CycleSettings settings,
@@ -158,13 +161,14 @@ void bind_simulations(nb::module_& m) {
                                    .max_periods = max_periods,
                                    .direction = direction,
                                    .stick = stick_options(tolerance, max_iterations, boundary)};
-        CycleSettings settings =
-            cycle_settings(contact_sets.grid, material, oscillation(motion), mean_indentation, options);
+        CycleSettings settings = cycle_settings(contact_sets.grid, material, oscillation(motion),
+                                                mean_indentation, options);
         settings.emplace_back("contact_sets", contact_sets.identity);
         return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
                           progress, [&](const CycleOptions& chosen, const Progress&) {
-                            return simulate_cycle(contact_sets.contact_sets, contact_sets.grid, material,
-                                                  trajectory(motion, mean_indentation), chosen);
+                            return simulate_cycle(contact_sets.contact_sets, contact_sets.grid,
+                                                  material, trajectory(motion, mean_indentation),
+                                                  chosen);
                           });
       },
       nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
@@ -186,19 +190,20 @@ motion : EqualFrequency or Drag
 mean_indentation : float
     m, from first touch.
 steps : int
-    Changes of the contact in a period, >= 4.
+    Steps in a period, each with another contact set; >= 4.
 max_periods : int
-    At most, until a period repeats the last one.
+    Maximum number of periods; the simulation ends earlier if a period repeats the previous one.
 direction : float
-    Of the tangential motion against x, rad.
+    Angle of the tangential motion to the x axis, rad.
 tolerance, max_iterations, boundary
-    Of each stick solve.
+    Options of each stick solve.
 checkpoint : str or os.PathLike, optional
-    File that keeps the state while the simulation runs; removed at its end, left by whatever stops it before, Ctrl-C included.
+    File that keeps the state while the simulation runs. It is removed at the end; a run that stops before, by Ctrl-C for example,
+    leaves it.
 checkpoint_every : float
     Time between checkpoints, s; 0 for every step.
 resume : bool
-    Continue from the checkpoint where there is one, to the same bits. Levels by a Python function must be the same function.
+    Continue from the checkpoint if there is one; the result has the same bits. If `contact_sets` is a Python function, it must be the same.
 progress : bool or callable
 
 Raises
@@ -206,7 +211,8 @@ Raises
 InvalidInput
     "<file>: <setting> was … in the checkpoint and is … now" for a checkpoint of another run, and for one that exists without resume.
 )");
-  // Both simulations with friction: the same arguments but for a constant of the coupling.
+  // The simulations with friction and with coupling have the same arguments, except that coupling
+  // has a coupling constant too.
   const auto define = [&m]<class... Constant>(const char* name,
                                               std::type_identity<void(Constant...)>,
                                               const char* description, auto... constant_argument) {
@@ -256,9 +262,9 @@ InvalidInput
       "simulate_frictional_cycle", std::type_identity<void()>{},
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
-Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a constant drag starts
-from the slid state, and its second period loses what the first lost. Arguments as :func:`simulate_cycle`, checkpoints included;
-friction_coefficient: μ.
+Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods. A constant drag
+starts from the state after long sliding, and its second period loses the same energy as the first. Arguments as for :func:`simulate_cycle`, including
+checkpoints; friction_coefficient: μ.
 )");
   m.def(
       "simulated_joint_loss",
@@ -293,43 +299,44 @@ friction_coefficient: μ.
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(:func:`joint_loss` of a surface cell by cell: direct three-dimensional simulation by displacement (m) or by force (N).
 
-Relaxation and slip are told apart by cells; the exponent is NaN. The steps are of second order, 2.5 % of W with 16 of them.
+Relaxation and slip are distinguished cell by cell; the exponent is NaN. The error of the steps is of second order: 2.5 %
+of W with 16 steps.
 )");
-  define(
-      "simulate_coupled_cycle", std::type_identity<void(std::optional<double>)>{},
-      "The same with the coupling of normal and tangential directions (Dundurs' β); "
-      "coupling_constant: β/(πE*), 1/Pa, by default the material's. It shows when neglecting the "
-      "coupling, as the paper does, is safe.",
-      nb::arg("coupling_constant") = nb::none());
+  define("simulate_coupled_cycle", std::type_identity<void(std::optional<double>)>{},
+         "Like :func:`simulate_frictional_cycle`, with the coupling of normal and tangential "
+         "directions "
+         "(Dundurs' β): shows when the coupling can be neglected, as the paper does. "
+         "coupling_constant: β/(πE*), 1/Pa, by default the material's.",
+         nb::arg("coupling_constant") = nb::none());
 }
 
 void bind_quadrature(nb::module_& m) {
   described_class<IntervalQuadratureResult>(m, "IntervalQuadratureResult",
-                                         "The loss of a cycle from a few contact sets.");
+                                            "The loss of a cycle from a few contact sets.");
   m.def(
       "interval_quadrature",
       [](const BoundContactSets& contact_sets, const Material& material, const Oscillation& motion,
          double mean_indentation, int count, double direction, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015"});
-        IntervalQuadratureOptions options{.contact_sets = count, .direction = direction};
+        IntervalQuadratureOptions options{.intervals = count, .direction = direction};
         options.stick = {.tolerance = tolerance,
                          .max_iterations = max_iterations,
                          .boundary = boundary.value("boundary")};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return interval_quadrature(contact_sets.contact_sets, contact_sets.grid, material, motion, mean_indentation,
-                                  options);
+          return interval_quadrature(contact_sets.contact_sets, contact_sets.grid, material, motion,
+                                     mean_indentation, options);
         });
       },
-      nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"),
-      nb::arg("mean_indentation"), nb::kw_only(), nb::arg("intervals") = 0, nb::arg("direction") = 0.0,
+      nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+      nb::kw_only(), nb::arg("intervals") = 0, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-5, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Relaxation damping of a contact without stepping through the cycle: W = ½∮ s² dK_t by parts.
 
-On Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each. contact_sets = 0: 16 for equal
-frequencies, 32 for drag.
+The integral uses Gauss–Legendre nodes in θ, δ(θ) = δ0 + u_z cosθ, and each node costs a normal contact, a stick and a punch solve.
+intervals = 0: 16 for equal frequencies, 32 for drag.
 )");
 }
 

@@ -12,7 +12,7 @@
 #include <salebra/analysis/slip.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/assumptions.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 
 #include "bindings.hpp"
 #include "damping/max_motion.hpp"
@@ -43,8 +43,9 @@ std::string regime_of(const BoundDamping& one) {
   return std::string(name_of(assumptions ? assumptions->regime : Regime::unknown));
 }
 
-/// An answer whose assumptions are still to be judged, of a law made of `curve` if there is one. Parameters
-/// that cannot be are refused now. Called with the interpreter's lock.
+/// A result whose assumptions are judged when they are first read. Impossible parameters are
+/// refused now. curve: the force curve of which the law was made; nullptr if there is none. The
+/// caller must hold the interpreter's lock.
 BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, const Motion& motion,
                           const ContactParameters* parameters, const ForceCurve* curve) {
   const double mean = result.indentation;
@@ -53,11 +54,11 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
         return at_state(known(parameters), law, curve, mean, mean + one.normal_amplitude);
       },
       motion);
-  // The object keeps the law.
+  // Keeps the Python object of the law alive as long as the result.
   return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
             return unlocked([&] {
-              return with_motion(motion,
-                                 [&](const auto& one) { return assumptions_of(law, mean, one, all); });
+              return with_motion(
+                  motion, [&](const auto& one) { return assumptions_of(law, mean, one, all); });
             });
           }};
 }
@@ -66,8 +67,9 @@ void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results)
   if (const auto warning = detail::warning_of_held_indentation(hold, results)) warn_user(*warning);
 }
 
-/// The quantity that changes from case to case, and its values: of the operating point, or one of the
-/// motion's; otherwise the number of the case.
+/// A curve of results without its results: the quantity that differs from case to case, and its
+/// values. This is the indentation or force, otherwise a number of the motion, otherwise the number
+/// of the case.
 BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
   BoundDampingCurve curve{force ? "force" : "indentation", {}, {}};
   const auto changes = [](const std::vector<double>& values) {
@@ -97,17 +99,29 @@ BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
   return curve;
 }
 
+/// The validity of losses as they are described: where they include slip, slip is no assumption.
+std::string validity_of_losses(std::span<const BoundDamping> losses) {
+  std::vector<Assumptions> assumptions;
+  for (const BoundDamping& one : losses)
+    if (const auto judged = one.judged().assumptions) assumptions.push_back(*judged);
+  if (assumptions.empty()) return std::string(name_of(Validity::not_checked));
+  const bool slips = std::ranges::any_of(
+      losses, [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
+  return std::string(name_of(validity_of(verdicts_of(assumptions, slips))));
+}
+
 void bind_damping_result(nb::module_& m) {
   nb::class_<BoundDamping> bound(
-      m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
+      m, "DampingResult", "Damping of one contact under one motion; unknown numbers are NaN.");
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
            std::type_identity<DampingResult>{});
   bound.def_prop_ro("regime", &regime_of, "no slip, partial slip, sliding or unknown.");
   bound.def_prop_ro(
+      "validity", [](const BoundDamping& self) { return validity_of_losses({&self, 1}); },
+      "One word for the assumptions of this loss; where it includes slip, slip is no assumption.");
+  bound.def_prop_ro(
       "assumptions", [](const BoundDamping& self) { return self.judged().assumptions; },
-      "whether the contact may be taken for one without slip, yielding and inertia; None where "
-      "they "
-      "were not asked for.");
+      "assumptions: no slip, no yielding, no inertia; None if they were not judged.");
   value_methods(
       bound, [](const BoundDamping& self) { return self.judged(); },
       [](BoundDamping* self, JudgedDamping&& value) {
@@ -116,33 +130,11 @@ void bind_damping_result(nb::module_& m) {
 }
 
 void bind_damping_curve(nb::module_& m) {
-  nb::class_<BoundDampingCurve> bound(
+  auto bound = curve_class<BoundDamping, DampingResult>(
       m, "DampingCurve",
-      "Losses over one quantity: a sequence of :class:`DampingResult`, with an array for each of "
-      "their numbers.");
-  const auto at = [](const BoundDampingCurve& self, Py_ssize_t index) {
-    const auto count = static_cast<Py_ssize_t>(self.results.size());
-    if (index < -count || index >= count) throw nb::index_error();
-    return self.results[static_cast<std::size_t>(index < 0 ? index + count : index)];
-  };
-  bound.def("__len__", [](const BoundDampingCurve& self) { return self.results.size(); })
-      .def("__getitem__", at, nb::arg("index"))
-      .def_prop_ro(
-          "coordinate", [](const BoundDampingCurve& self) { return self.coordinate; },
-          "The quantity that the losses are a curve over: pressure, force, indentation, a quantity "
-          "of the motion, or case.")
-      .def_prop_ro(
-          "values",
-          [](const BoundDampingCurve& self) { return array_of(std::vector(self.values)); },
-          nb::rv_policy::automatic, "The coordinate of each loss.")
-      .def(
-          "__getattr__",
-          [](const BoundDampingCurve& self, const std::string& name) {
-            if (name != self.coordinate)
-              throw nb::attribute_error(("'DampingCurve' has no attribute '" + name + "'").c_str());
-            return array_of(std::vector(self.values));
-          },
-          nb::arg("name"), "The coordinate by its name, such as ``curve.pressure``.")
+      "Losses over one quantity: a sequence of :class:`DampingResult` with an array for each "
+      "number.");
+  bound
       .def_prop_ro(
           "regime",
           [](const BoundDampingCurve& self) {
@@ -153,40 +145,20 @@ void bind_damping_curve(nb::module_& m) {
           "The regime of each loss: no slip, partial slip, sliding or unknown.")
       .def_prop_ro(
           "validity",
-          [](const BoundDampingCurve& self) {
-            std::vector<Assumptions> assumptions;
-            for (const BoundDamping& one : self.results)
-              if (const auto judged = one.judged().assumptions) assumptions.push_back(*judged);
-            if (assumptions.empty()) return std::string(name_of(Validity::not_checked));
-            const bool slips = std::ranges::any_of(
-                self.results, [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
-            return std::string(name_of(validity_of(verdicts_of(assumptions, slips))));
-          },
+          [](const BoundDampingCurve& self) { return validity_of_losses(self.results); },
           "One word for the assumptions of all losses.");
-  salebra::for_each_number<DampingResult>(
-      [&](NumberOf<DampingResult> number, const Quantity& quantity) {
-        bound.def_prop_ro(
-            std::string(quantity.name).c_str(),
-            [number](const BoundDampingCurve& self) {
-              std::vector<double> values;
-              for (const BoundDamping& one : self.results) values.push_back(number(one));
-              return array_of(std::move(values));
-            },
-            nb::rv_policy::automatic, described_text(quantity).c_str());
-      });
   value_methods(
       bound,
       [](const BoundDampingCurve& self) {
-        DampingCurve curve{self.coordinate, self.values, {}};
+        CurveOf<JudgedDamping> curve{self.coordinate, self.values, {}};
         for (const BoundDamping& one : self.results) curve.results.push_back(one.judged());
         return curve;
       },
-      [](BoundDampingCurve* self, DampingCurve&& curve) {
+      [](BoundDampingCurve* self, CurveOf<JudgedDamping>&& curve) {
         new (self) BoundDampingCurve{std::move(curve.coordinate), std::move(curve.values), {}};
         for (JudgedDamping& one : curve.results)
           self->results.push_back({one, std::move(one.assumptions), {}});
       });
-  result_methods(bound, true);
 }
 
 void bind_theorem(nb::module_& m) {
@@ -212,15 +184,15 @@ void bind_theorem(nb::module_& m) {
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
-      nb::arg("curve") = nb::none(),
-      R"(Work lost per cycle by a contact that oscillates, at any amplitude: with slip where `parameters` have a coefficient of friction.
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
+      R"(Energy lost per cycle by an oscillating contact, at any amplitude; with slip if `parameters` have a coefficient of friction.
 
 Without slip it is
 
-.. math:: W = \tfrac12\oint s^2\,dK_t, \qquad s = x_{out} - x_{in}\text{ of each indentation level}
+.. math:: W = \tfrac12\oint s^2\,dK_t, \qquad s = x_{out} - x_{in}\text{ of each spring}
 
-in the by-parts forms that need K_t alone:
+integrated by parts, which needs only K_t:
 
 .. math::
     W_a = 2u_x^2\sin^2\varphi_0\int_0^\pi K_t(\delta(\theta))\sin2\theta\,d\theta, \qquad
@@ -233,27 +205,27 @@ Parameters
 law : ContactLaw
 motion : EqualFrequency, Drag or TwoFrequencies
 indentation : float, optional
-    Where the contact stands, m, on the law's own scale …
+    Mean indentation, m, on the scale of the law.
 force : float, optional
-    … or the force that it carries, N; exactly one of the two.
+    Normal force, N. Give exactly one of indentation and force.
 hold : {"indentation", "force"}
-    What stays fixed over a cycle: the mean indentation, or the mean force (a dead weight).
+    Which mean over a cycle stays fixed: the indentation, or the force (a dead weight).
 amplitude : {"finite", "small"}
     "small": Eq. (12) or (15) with F'' of the law.
 tolerance : float
     Relative, of the quadrature of W; 1e-13 … 1e-2.
 parameters : ContactParameters, optional
-    Friction, hardness, density and the like, by which the assumptions are judged. With friction the loss is that with slip; a slow motion
-    then needs its excursion. `damping_constant_without_slip` is the number without.
+    Friction, hardness, density and the like, for the loss and for its assumptions. With friction the loss includes slip, and a slow motion
+    needs its excursion. `damping_constant_without_slip` never includes slip.
 curve : ForceCurve, optional
-    The curve that the law is made of; says pressures and size.
+    The curve of which the law was made: gives pressures and size.
 
-The result's `assumptions` are judged when they are read first, which takes about 10 ms.
+The `assumptions` of the result are judged when they are first read, which takes about 10 ms.
 
 Raises
 ------
 InvalidInput
-    For values that no motion has, and for a motion that leaves the range of a tabulated law.
+    For an impossible motion, and for a motion that leaves the range of a tabulated law.
 )");
   m.def(
       "damping_curve",
@@ -291,10 +263,10 @@ InvalidInput
         warn_of_held_indentation(options.hold, results);
         BoundDampingCurve curve_of = over(cases, force.has_value());
         for (std::size_t i = 0; i < count; ++i)
-          curve_of.results.push_back(assumptions
-                                         ? to_be_judged(results[i], law, described[i], parameters, curve)
-                                         : BoundDamping{results[i], {}, {}});
-        // One warning for all motions.
+          curve_of.results.push_back(
+              assumptions ? to_be_judged(results[i], law, described[i], parameters, curve)
+                          : BoundDamping{results[i], {}, {}});
+        // Gives one warning for all motions together.
         const auto unknown = std::ranges::find_if(described, [&](const Motion& one) {
           return !why_loss_unknown(one, known(parameters)).empty();
         });
@@ -303,16 +275,17 @@ InvalidInput
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
-      nb::arg("curve") = nb::none(), nb::arg("assumptions") = true, nb::arg("progress") = false,
-      R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of operating points, or both of one length.
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
+      nb::arg("assumptions") = true, nb::arg("progress") = false,
+      R"(:func:`relaxation_damping` of many cases in parallel: several motions, several indentations or forces, or as many of both.
 
-`assumptions=False` leaves the assumptions out. Otherwise each result judges its own when they are read first.
+Each result judges its assumptions when they are first read; `assumptions=False` leaves them out.
 
 Returns
 -------
 DampingCurve
-    A sequence of DampingResult in the order of the cases, with an array for each number, over the quantity that changes.
+    A sequence of DampingResult in the order of the cases, with an array for each number over the quantity that changes.
 )");
   m.def(
       "relaxation_damping_force_controlled",
@@ -331,7 +304,8 @@ DampingCurve
           if (!std::isnan(known(parameters).friction_coefficient)) found.forget();
           return found;
         });
-        // The normal oscillation has the amplitude that the stiffness makes of the force's.
+        // The normal amplitude that corresponds to the force amplitude is the force amplitude
+        // divided by K.
         Motion moved = motion;
         std::visit(
             [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
@@ -341,13 +315,15 @@ DampingCurve
       nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
       nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
       nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
-      "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's "
-      "normal_amplitude is not used.");
+      ":func:`relaxation_damping` if the normal force oscillates, F = F0 + F_a cos ωt with 0 <= "
+      "F_a <= "
+      "F0, N. The normal_amplitude of the motion is not used.");
   m.def("mean_force_of_cycle", &mean_force_of_cycle, nb::arg("law"), nb::arg("mean_indentation"),
         nb::arg("normal_amplitude"), "Mean of F over a cycle δ0 + u_z cosθ, N.");
   m.def("indentation_at_mean_force", &indentation_at_mean_force, nb::arg("law"),
         nb::arg("mean_force"), nb::arg("normal_amplitude"),
-        "The mean indentation at which the cycle mean of F is mean_force, m: where a dead weight "
+        "The mean indentation, m, at which the mean of F over a cycle is mean_force: where a dead "
+        "weight "
         "settles.");
 }
 
@@ -368,7 +344,8 @@ void bind_damper(nb::module_& m) {
       nb::arg("law"), nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
       nb::arg("mass"), nb::arg("spring_stiffness") = 0.0, nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
-      "A mass (kg) on a spring (N/m) and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.");
+      "Decay of a mass (kg) on a spring (N/m) and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = "
+      "0.");
 
   auto map =
       described_class<DamperMap>(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
@@ -399,11 +376,12 @@ void bind_damper(nb::module_& m) {
                                      falling_slope, max_amplitude, options);
       },
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
-      nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
-      "The least u_z, m, at which γ >= falling_slope (N s/m): an estimate, without slip, of what "
-      "keeps a slider whose friction falls with velocity from stick–slip. "
-      "NaN where no amplitude up to max_amplitude is enough.");
+      nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      "Minimum u_z, m, at which γ >= falling_slope (N s/m): an estimate, without slip, of the "
+      "amplitude "
+      "that prevents stick–slip of a slider whose friction falls with velocity. NaN if "
+      "max_amplitude is not enough.");
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ namespace salebra::python {
 namespace {
 
 void bind_friction_map(nb::module_& m) {
-  auto friction = described_class<FrictionMap>(
-      m, "FrictionMap",
-      "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
+  auto friction = described_class<FrictionMap>(m, "FrictionMap",
+                                               "Losses with friction over the loss in full stick: "
+                                               "shows when friction acts as \"infinite\".");
   result_methods(friction, true);
   m.def(
       "friction_map",
@@ -74,8 +74,9 @@ void bind_asperities(nb::module_& m) {
       },
       nb::arg("summits"), nb::arg("material"), nb::arg("separation"), nb::arg("motion"),
       nb::kw_only(), nb::arg("shape") = "circular",
-      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the "
-      "mean of the summits' heights, m.");
+      "Damping of each summit as an independent sticking contact. separation: mean separation from "
+      "the "
+      "mean of the summit heights, m.");
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 namespace salebra::python {
 namespace {
 
-/// What salebra-import does, without a process.
+/// Imports a file of unknown format by the code of salebra-import, but in the process of the user.
 std::vector<std::string> import_here(const std::filesystem::path& from,
                                      const std::filesystem::path& to, const std::string& channel,
                                      const UnknownFormat& refusal) {
@@ -74,38 +74,38 @@ void bind_files(nb::module_& m) {
       nb::arg("comm") = nb::none(),
       R"(Reads the heights of a surface.
 
-What the file is follows from its first bytes, not from its name: HDF5, NPY, X3P, GWY, GSF, SUR,
-text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
-are read by SurfaceTopography where it is installed (``pip install 'salebra[formats]'``). Undefined points become NaN.
+The first bytes of the file, not its name, decide the format: HDF5, NPY, X3P, GWY, GSF, SUR,
+text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. SurfaceTopography reads other formats of
+instruments if it is installed (``pip install 'salebra[formats]'``). Undefined points become NaN.
 
 Parameters
 ----------
 file : str or os.PathLike
 size_x, size_y : float, optional
-    Size in m, in index of the file's; needed where the file does not know it.
+    Size in m, in index of the size in the file; required if the file has none.
 periodic : bool, optional
-    In index of the file's.
+    Whether the surface repeats itself, in index of the value in the file.
 height_unit : str
-    Such as "nm", for files that give none; empty: metres.
+    Unit of the heights, such as "nm", for files that have none; empty: metres.
 transpose : bool
-    Exchange x and y of the file, before all that follows.
+    Exchange x and y of the file, before all other options apply.
 pixel_size : float or (float, float), optional
-    Distance of the points along x and y in m, in index of sizes.
+    Distance of points along x and y in m, in index of sizes.
 lateral_unit : str
-    Such as "um", of XYZ points whose file gives none; empty: metres.
+    Unit of XYZ points, such as "um", for files that have none; empty: metres.
 despike : float, optional
-    Points so many robust standard deviations from their neighbours become undefined, see :meth:`Surface.despiked`.
+    Makes points undefined that are this many robust standard deviations from their neighbours, see :meth:`Surface.despiked`.
 crop : (float, float, float, float), optional
-    x0, y0, x1, y1 of the part that is used, m; after `despike`.
+    x0, y0, x1, y1 of the part to use, m; applied after `despike`.
 fill : bool
-    Fill undefined points at last, see :meth:`Surface.filled`.
+    Fill undefined points in the end, see :meth:`Surface.filled`.
 profiles : bool
-    Read a line profile too, as a surface of one row, for :func:`fit_profile`.
+    Accept line profiles too, as a surface of one row, for :func:`fit_profile`.
 channel : str
     Number or name of one of several surfaces in a file of GWY, HDF5 (a dataset) or an instrument; empty: the first whose unit is a length.
 comm : mpi4py.MPI.Intracomm, optional
-    Processes over which the surface is spread, as in :func:`filtered_noise`. Of an HDF5 file each reads its rows; any other is read whole by
-    the first one.
+    Processes over which the surface is distributed, as in :func:`filtered_noise`. Each process reads its rows of an HDF5 file; the first
+    process reads files of other formats.
 
 Raises
 ------
@@ -116,8 +116,8 @@ InvalidInput
 Warns
 -----
 UserWarning
-    Where a size differs from the file's, the slopes are those of heights in another unit, or single points stand alone, or
-    one of several channels was taken.
+    If a size differs from that in the file, if the slopes suggest another unit of the heights, if single points are isolated, or
+    if one of several channels was chosen.
 )");
   m.def(
       "write_surface",
@@ -132,7 +132,7 @@ Parameters
 file : str or os.PathLike
     .h5, .hdf5, .npy (with a sidecar .json), .gwy, .gsf (float32), .txt, .asc or .xyz.
 surface : Surface
-    One that is spread over processes goes into HDF5 files only, by a call of all processes.
+    If the surface is distributed over processes, the file must be HDF5, and all processes make the call.
 overwrite : bool
     Replace an existing file. The file appears complete or not at all.
 
@@ -141,7 +141,7 @@ Raises
 InvalidInput
     For another extension, an invalid surface, or an existing file.
 IoError
-    Where the system refuses.
+    If the operating system refuses.
 )");
   m.def(
       "read_force_curve",
@@ -163,8 +163,8 @@ A table begins with the names of :class:`ForceCurve`'s columns, each with a unit
         unlocked([&] { write_force_curve(file, curve, {}, {overwrite}); });
       },
       nb::arg("file"), nb::arg("curve"), nb::kw_only(), nb::arg("overwrite") = false,
-      "Writes a curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text that "
-      ":func:`read_force_curve` takes.");
+      "Writes a curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text for "
+      ":func:`read_force_curve`.");
 }
 
 }  // namespace salebra::python

@@ -27,7 +27,7 @@
 namespace salebra::python {
 namespace {
 
-/// The parameters of self-affine spectra of surfaces and of profiles.
+/// Defines the constructor of self-affine spectra, of surfaces or of profiles.
 template <class Class>
 void self_affine_constructor(Class& bound) {
   bound.def(
@@ -44,17 +44,19 @@ void self_affine_constructor(Class& bound) {
 }
 
 void bind_spectra(nb::module_& m) {
-  nb::class_<Spectrum>(m, "Spectrum", nb::dynamic_attr(),
-                       R"(Power spectral density of a random surface.
+  nb::class_<Spectrum> spectrum(m, "Spectrum", nb::dynamic_attr(),
+                                R"(Power spectral density of a random surface.
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
 
 The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx ly).
-)")
+)");
+  described_property(
+      spectrum, &Spectrum::highest_wavenumber,
+      Kept{"highest_wavenumber", "C vanishes beyond this wave number", Dimension::wavenumber});
+  spectrum
       .def("density", &Spectrum::density, nb::arg("qx"), nb::arg("qy"),
            "C(q), m⁴; qx, qy in rad/m.")
-      .def_prop_ro("highest_wavenumber", &Spectrum::highest_wavenumber,
-                   "C vanishes beyond this, rad/m.")
       .def_prop_ro("moments", &Spectrum::moments, "Moments of the continuum.")
       .def(
           "lattice_moments",
@@ -63,11 +65,10 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
                 progress, [&](const Progress& told) { return self.lattice_moments(grid, told); });
           },
           nb::arg("grid"), nb::kw_only(), nb::arg("progress") = false,
-          "Moments that surfaces on this grid have in the mean: sums over the modes that the grid "
-          "carries.")
+          "Mean moments of surfaces on this grid: sums over the modes that the grid resolves.")
       .def("__repr__", &Spectrum::description);
   nb::class_<IsotropicSpectrum, Spectrum> radial(m, "IsotropicSpectrum",
-                                                 "A spectrum that depends on ``|q|`` alone.");
+                                                 "A spectrum that depends only on ``|q|``.");
   number_method(radial, "radial_density", "q", &IsotropicSpectrum::radial_density,
                 "C, m⁴, at wave numbers > 0, rad/m; a number or an array.");
   nb::class_<SelfAffineSpectrum, IsotropicSpectrum> self_affine(
@@ -77,14 +78,14 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
 .. math::
     C = C_0 \;(q_L \le q < q_r), \qquad C = C_0\,(q/q_r)^{-2(1+H)} \;(q_r \le q \le q_s), \qquad C = 0 \text{ elsewhere}
 
-C0 is set so that the *continuum* has the rms height (or slope) asked; what a grid has of it is :meth:`lattice_moments`.
+C0 gives the *continuum* the requested rms height (or slope); :meth:`lattice_moments` are those of a surface on a grid.
 
 Parameters
 ----------
 hurst : float
     H, 0 < H <= 1.
 long_cutoff : float, optional
-    Longest wavelength 2π/q_L, m; none: every wave that the cell carries.
+    Longest wavelength 2π/q_L, m; none: every wave that fits the surface.
 rolloff : float, optional
     2π/q_r <= long_cutoff, m; none: no plateau.
 short_cutoff : float
@@ -94,11 +95,14 @@ rms_height : float, optional
 rms_slope : float, optional
     ``√⟨|∇h|²⟩``.
 )");
-  self_affine.def_prop_ro("plateau", &SelfAffineSpectrum::plateau, "C0, m⁴.");
+  auto bound = nb::borrow<nb::class_<SelfAffineSpectrum>>(self_affine);
+  described_property(bound, &SelfAffineSpectrum::plateau,
+                     Kept{"plateau", "C0", Dimension::length_to_the_fourth});
   self_affine_constructor(self_affine);
   nb::class_<TabulatedSpectrum, IsotropicSpectrum>(
       m, "TabulatedSpectrum",
-      "A spectrum from a table, straight in ln C against ln q between its points and 0 outside of "
+      "A spectrum from a table, with straight lines of ln C over ln q between its points and 0 "
+      "outside "
       "them.\n\n"
       "wavenumbers: > 0, increasing, rad/m; densities: > 0, m⁴.")
       .def(
@@ -110,16 +114,14 @@ rms_slope : float, optional
           nb::arg("wavenumbers"), nb::arg("densities"));
   nb::class_<FunctionSpectrum, IsotropicSpectrum>(
       m, "FunctionSpectrum",
-      "Any function ``C(|q|)`` in m⁴ between two wave numbers, rad/m, and 0 outside of them. A "
-      "Python "
-      "function is slow: one call "
-      "for each wave; :class:`TabulatedSpectrum` is not.")
+      "Any function ``C(|q|)`` in m⁴ between two wave numbers, rad/m, and 0 outside them. A Python "
+      "function is slow, with one call for each wave; :class:`TabulatedSpectrum` is fast.")
       .def(nb::init<std::function<double(double)>, double, double, std::string>(),
            nb::arg("density"), nb::arg("lowest"), nb::arg("highest"), nb::arg("name") = "function");
-  nb::class_<Anisotropy> stretch(
-      m, "Anisotropy",
-      "How an isotropic surface is stretched: correlation lengths along·ℓ and across·ℓ; `angle` "
-      "from the x axis to the direction of `along`, rad.");
+  nb::class_<Anisotropy> stretch(m, "Anisotropy",
+                                 "Stretch of an isotropic surface: correlation lengths along·ℓ and "
+                                 "across·ℓ; `angle` from the x "
+                                 "axis to the direction of `along`, rad.");
   value_methods(stretch);
   stretch
       .def(
@@ -132,10 +134,10 @@ rms_slope : float, optional
       .def_ro("across", &Anisotropy::across)
       .def_ro("angle", &Anisotropy::angle, "rad")
       .def_prop_ro("peklenik", &Anisotropy::peklenik, "γ = along/across.");
-  nb::class_<AnisotropicSpectrum, Spectrum>(
-      m, "AnisotropicSpectrum",
-      "The spectrum of an isotropic surface stretched along two perpendicular directions, with its "
-      "rms height kept.")
+  nb::class_<AnisotropicSpectrum, Spectrum>(m, "AnisotropicSpectrum",
+                                            "The spectrum of an isotropic surface that is "
+                                            "stretched along two perpendicular directions; the "
+                                            "rms height stays the same.")
       .def(
           "__init__",
           [](AnisotropicSpectrum* self, std::shared_ptr<IsotropicSpectrum> isotropic,
@@ -151,8 +153,7 @@ rms_slope : float, optional
 }
 
 void bind_forecast(nb::module_& m) {
-  described_class<Forecast>(m, "Forecast",
-                            "What can be said of a generated surface before it is made.");
+  described_class<Forecast>(m, "Forecast", "Forecast for a surface that will be generated.");
   m.def(
       "forecast",
       [](const Grid2D& grid, const Spectrum& spectrum, const ProgressArgument& progress) {
@@ -163,8 +164,9 @@ void bind_forecast(nb::module_& m) {
       "Moments, scatter, memory and warnings of a surface before it is made.");
 }
 
-/// make(grid, spectrum, seed, told, ranks), which several processes may call together; further
-/// arguments of Python stand before the keywords.
+/// Binds the generator make(grid, spectrum, seed, further…, progress, communicator) as a Python
+/// function, which several processes may call together. further: arguments between `seed` and the
+/// keywords.
 template <class Make, class... Further, class... Argument>
 void maker(nb::module_& m, const char* name, std::type_identity<void(Further...)>, Make make,
            const char* description, Argument... arguments) {
@@ -190,8 +192,8 @@ void bind_makers(nb::module_& m) {
 
 .. math:: h(x) = \sum_q a(q) e^{iq\cdot x}, \qquad \langle|a(q)|^2\rangle = C(q)\,(2\pi)^2/(l_x l_y)
 
-An exact Gaussian process: rms height and slope fluctuate from seed to seed. Amplitudes are keyed by (seed, i, j): the same bits
-for every thread count, and the same long waves on every grid of one cell.
+The surface is an exact Gaussian process: rms height and slope vary with the seed. Amplitudes are keyed by (seed, i, j): the bits do not
+depend on the number of threads, and all grids of one size have the same long waves.
 
 Parameters
 ----------
@@ -200,23 +202,23 @@ spectrum : Spectrum
 seed : int
     Any value >= 0.
 comm : mpi4py.MPI.Intracomm, optional
-    Processes that make the surface together: each makes this call and has the rows `surface.rows`, with the bits that one process gives
-    them. Needs a build with MPI.
+    Processes that generate the surface together: each makes this call and has the rows `surface.rows`, with the same bits as a single
+    process. Needs a build with MPI.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
 Raises
 ------
 InvalidInput
-    If the grid does not carry the spectrum.
+    If the grid does not resolve the spectrum.
 Interrupted
-    If `progress` said stop, in any of the processes.
+    If `progress` returned False in any process.
 )");
   maker(
       m, "random_phase", no_more, &random_phase,
-      R"(A periodic surface in which chance decides on phases only: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
+      R"(A periodic surface in which only the phases are random: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
 
-rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
+For each seed, rms height, slope and all moments equal :meth:`Spectrum.lattice_moments`. Arguments and errors as for
 :func:`filtered_noise`.
 )");
   maker(
@@ -225,8 +227,8 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
          const Progress& told, const Communicator& communicator) {
         return exact_rms(grid, spectrum, seed, which.value("which"), told, communicator);
       },
-      "A random-phase surface scaled so that its own rms height (or slope) is that of the "
-      "continuum, `spectrum.moments`.",
+      "A random-phase surface, scaled to the rms height (or slope) of the continuum, "
+      "`spectrum.moments`.",
       nb::arg("which") = "height");
   m.def(
       "scale_to_rms",
@@ -236,8 +238,7 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return scale_to_rms(Surface(surface.surface), chosen, target); }));
       },
       nb::arg("surface"), nb::arg("which"), nb::arg("target"),
-      "The surface less its mean, times the factor that gives it this rms height (m) or rms "
-      "slope.");
+      "Subtracts the mean of a surface and scales it to this rms height (m) or rms slope.");
   m.def(
       "composite_surface",
       [](const BoundSurface& first, const BoundSurface& second) {
@@ -245,7 +246,7 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return composite_surface(first.surface, second.surface); }));
       },
       nb::arg("first"), nb::arg("second"),
-      "The one rough side that stands for two: h = h₁ + h₂, each height counted out of its own "
+      "One rough surface equivalent to two: h = h₁ + h₂, where each height points out of its own "
       "body.");
   m.def(
       "crop_surface",
@@ -254,8 +255,9 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return crop_surface(surface.surface, first_x, first_y, nx, ny); }));
       },
       nb::arg("surface"), nb::arg("first_x"), nb::arg("first_y"), nb::arg("nx"), nb::arg("ny"),
-      "The part of nx × ny cells from (first_x, first_y) on, not periodic; of a periodic surface "
-      "it may reach over the edge.");
+      "The part of nx × ny cells that starts at (first_x, first_y). It is not periodic. In a "
+      "periodic "
+      "surface it may cross the edge.");
 }
 
 void bind_non_gaussian(nb::module_& m) {
@@ -265,7 +267,7 @@ void bind_non_gaussian(nb::module_& m) {
   number_method(
       bound, "quantile", "u",
       [](const HeightDistribution& self, double u) { return self.quantile(u); },
-      "Height that a fraction u of the surface lies below, 0 < u < 1.");
+      "Height below which a fraction u of the surface lies, 0 < u < 1.");
   bound.def_ro("name", &HeightDistribution::name);
   m.def("gaussian_heights", &gaussian_heights, "Normal heights.");
   m.def("weibull_heights", &weibull_heights, nb::arg("shape"),
@@ -340,16 +342,16 @@ void bind_non_gaussian(nb::module_& m) {
       nb::arg("progress") = false,
       R"(A periodic surface with a given spectrum and a given height distribution.
 
-Iterated amplitude-adjusted Fourier transform, doi:10.1103/PhysRevLett.77.635: in turn, heights are replaced by those of the
-distribution in the same order, and mode amplitudes by those of the spectrum with the same phases.
+The method is the iterated amplitude-adjusted Fourier transform, doi:10.1103/PhysRevLett.77.635. In turn, it replaces the heights by those
+of the distribution in the same order, and the amplitudes of the modes by those of the spectrum with the same phases.
 
 Parameters
 ----------
 exact : {"heights", "spectrum"}
-    Which of the two holds exactly in the end.
+    Which of the two the result has exactly.
 max_iterations : int
 tolerance : float
-    Stop when an iteration lowers the mismatch by less than this part of it.
+    Stop when an iteration reduces the mismatch by less than this fraction.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 )");
@@ -372,7 +374,7 @@ void bind_profiles(nb::module_& m) {
         nb::arg("spectrum"), nb::arg("seed"), "A Gaussian random profile.");
   m.def("random_phase_profile", &random_phase_profile, nb::arg("points"), nb::arg("length"),
         nb::arg("spectrum"), nb::arg("seed"),
-        "A profile whose every mode has exactly its target power.");
+        "A profile in which every mode has exactly its target power.");
 }
 
 }  // namespace

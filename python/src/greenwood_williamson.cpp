@@ -69,7 +69,7 @@ table : list of (float, float)
         return ensemble;
       },
       nb::arg("moments"),
-      R"(The ensemble of a Gaussian isotropic surface, from its profile moments, or of summits that were counted.
+      R"(The ensemble of a Gaussian isotropic surface from its profile moments.
 
 .. math:: \eta = \frac{m_4}{6\sqrt3\pi m_2},\quad R = \tfrac38\sqrt{\pi/m_4},\quad \sigma_s^2 = (1-0.8968/\alpha)m_0,\quad
           \bar z = 4\sqrt{m_0/(\pi\alpha)}
@@ -82,39 +82,41 @@ Nayak, doi:10.1115/1.3451608; McCool, doi:10.1016/0043-1648(86)90045-1.
         return summit_ensemble(statistics, mean_plane);
       },
       nb::arg("statistics"), nb::arg("mean_plane") = 0.0,
-      "The ensemble with the density, mean radius, and mean and standard deviation of the heights "
-      "of summits that were counted. "
-      "mean_plane: mean of the surface's heights, m.");
+      "The ensemble with the statistics of counted summits: density, mean radius, and mean and "
+      "standard "
+      "deviation of the heights. mean_plane: mean height of the surface, m.");
 }
 
 void bind_models(nb::module_& m) {
-  described_class<AsperityContact>(m, "AsperityContact", "Sums over the summits in contact.");
-  nb::class_<AsperityModel>(
+  described_class<AsperityContact>(
+      m, "AsperityContact", "Force, area and stiffness, summed over the summits in contact.");
+  nb::class_<AsperityModel> bound(
       m, "AsperityModel", nb::dynamic_attr(),
-      "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.")
+      "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.");
+  described_property(
+      bound, [](const AsperityModel& self) { return self.common().nominal_area; },
+      Kept{"nominal_area", "nominal area A0", Dimension::length_squared});
+  described_property(
+      bound, [](const AsperityModel& self) { return self.common().first_touch; },
+      Kept{"first_touch", "separation s where δ = 0", Dimension::length});
+  bound
       .def(
           "at",
           [](const AsperityModel& self, double separation) {
             return unlocked([&] { return self.at(separation); });
           },
-          nb::arg("separation"), "All sums at a separation, m.")
+          nb::arg("separation"), "Force, area and stiffness at a separation, m.")
       .def(
           "separation_of",
           [](const AsperityModel& self, double force) {
             return unlocked([&] { return self.separation_of(force); });
           },
-          nb::arg("force"), "s at which the summits carry the force > 0, N; m.")
+          nb::arg("force"), "Separation s, m, at which the summits carry a force > 0, N.")
       .def("indentation", &AsperityModel::indentation, nb::arg("separation"),
            "δ = first_touch − s, m.")
       .def("mean_gap", &AsperityModel::mean_gap, nb::arg("separation"),
            "ū = s + mean_height, from the *undeformed* mean plane of the surface, m.")
-      .def_prop_ro("name", [](const AsperityModel& self) { return self.common().name; })
-      .def_prop_ro(
-          "nominal_area", [](const AsperityModel& self) { return self.common().nominal_area; },
-          "A0, m².")
-      .def_prop_ro(
-          "first_touch", [](const AsperityModel& self) { return self.common().first_touch; },
-          "s where δ = 0, m.");
+      .def_prop_ro("name", [](const AsperityModel& self) { return self.common().name; });
   nb::class_<StatisticalSummits, AsperityModel>(
       m, "StatisticalSummits", R"(Greenwood and Williamson, doi:10.1098/rspa.1966.0242.
 
@@ -143,7 +145,7 @@ nominal_area : float
 
 .. math:: F = \sum_i\tfrac43E^*\sqrt{R_i}\,(z_i-s)^{3/2}
 
-s counts from the mean of the summit heights.
+s is measured from the mean of the summit heights.
 
 Parameters
 ----------
@@ -152,7 +154,7 @@ material : Material
 nominal_area : float
     A0, m².
 mean_plane : float
-    Mean of the surface's heights, m, from the same zero as the summits'.
+    Mean height of the surface, m, with the same zero as the heights of the summits.
 rms_height : float
     m
 shape : {"circular", "elliptical"}
@@ -177,7 +179,7 @@ shape : {"circular", "elliptical"}
 
 .. math:: P_i = \tfrac43E^*\sqrt{R_i}\,\delta_i^{3/2},\qquad \delta_i = z_i - s - \sum_jG(x_i-x_j)P_j
 
-Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds for 10⁵ summits; Ctrl-C stops it.
+Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. One state takes seconds for 10⁵ summits; Ctrl-C stops it.
 )")
       .def(
           "__init__",
@@ -196,9 +198,8 @@ Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds 
           nb::arg("max_iterations") = 100);
   nb::class_<GreenwoodTripp, AsperityModel>(
       m, "GreenwoodTripp",
-      "Contact of two rough sides: Greenwood and Tripp (1970), "
-      "doi:10.1243/PIME_PROC_1970_185_069_02. "
-      "Both ensembles Gaussian.")
+      "Contact of two rough surfaces by Greenwood and Tripp (1970), "
+      "doi:10.1243/PIME_PROC_1970_185_069_02. Both ensembles must be Gaussian.")
       .def(
           "__init__",
           [](GreenwoodTripp* self, const SummitEnsemble& first, const SummitEnsemble& second,
@@ -223,9 +224,11 @@ Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds 
         });
       },
       nb::arg("model"), nb::arg("pressures"), nb::kw_only(), nb::arg("progress") = false,
-      "The same for interacting summits, each load from the state of the load before; a stop "
-      "returns "
-      "the samples so far. A load for which no state was found has converged = False.");
+      "For interacting summits, each load starts from the state of the previous load. If "
+      "`progress` "
+      "stops the call, the finished samples are returned. A load without a solution has converged "
+      "= "
+      "False.");
   m.def(
       "curve_at_pressures",
       [](const AsperityModel& model, const Values& pressures) {
@@ -235,7 +238,7 @@ Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds 
       "Samples at the given pressures, > 0, Pa, from the lowest force to the highest.");
   nb::class_<GreenwoodWilliamsonLaw, ContactLaw>(
       m, "GreenwoodWilliamsonLaw",
-      "F(δ) of an ensemble of summits, exact: no table, no fit. The material needs G*.")
+      "F(δ) of an ensemble of summits, exactly: without table and fit. The material needs G*.")
       .def(
           "__init__",
           [](GreenwoodWilliamsonLaw* self, std::shared_ptr<AsperityModel> model) {
@@ -254,18 +257,23 @@ void bind_sampling(nb::module_& m) {
       },
       nb::arg("ensemble"), nb::arg("count"), nb::arg("size"), nb::arg("seed"),
       nb::arg("realisation") = 0,
-      "Summits drawn from an ensemble over a square of side `size`, m.");
+      "Draws random summits of an ensemble on a square of side `size`, m.");
   auto curve = described_class<MonteCarloCurve>(
-      m, "MonteCarloCurve", "What surfaces of finite size do: means over realisations.");
+      m, "MonteCarloCurve", "Force curve of surfaces of finite size: means over realisations.");
   curve.def("interval", &MonteCarloCurve::interval, nb::arg("standard_deviation"),
             "Half-width of the 95 % interval of the mean of a quantity with this standard "
             "deviation.");
-  column_property(curve, "force_deviation", &MonteCarloCurve::deviation, &AsperityContact::force,
-                  "Standard deviation of F over realisations, N.");
-  column_property(curve, "contact_area_deviation", &MonteCarloCurve::deviation,
-                  &AsperityContact::contact_area, "Standard deviation of A_c, m².");
-  column_property(curve, "normal_stiffness_deviation", &MonteCarloCurve::deviation,
-                  &AsperityContact::normal_stiffness, "Standard deviation of K, N/m.");
+  const auto deviation = [&curve](double AsperityContact::*member, const Kept& line) {
+    remember_unit(curve, line.name, line.dimension);
+    column_property(curve, line.name.data(), &MonteCarloCurve::deviation, member,
+                    described_text(line).c_str());
+  };
+  deviation(&AsperityContact::force,
+            {"force_deviation", "standard deviation of F over the realisations", Dimension::force});
+  deviation(&AsperityContact::contact_area,
+            {"contact_area_deviation", "standard deviation of A_c", Dimension::length_squared});
+  deviation(&AsperityContact::normal_stiffness,
+            {"normal_stiffness_deviation", "standard deviation of K", Dimension::stiffness});
   m.def(
       "monte_carlo_curve",
       [](const SummitEnsemble& ensemble, const Material& material, double nominal_area,
@@ -278,7 +286,8 @@ void bind_sampling(nb::module_& m) {
       },
       nb::arg("ensemble"), nb::arg("material"), nb::arg("nominal_area"), nb::arg("separations"),
       nb::kw_only(), nb::arg("realisations") = 100, nb::arg("seed") = 1,
-      "Presses realisations of an ensemble, each with round(ηA0) summits; separations in m.");
+      "Presses random realisations of an ensemble, each with round(ηA0) summits; separations in "
+      "m.");
 }
 
 }  // namespace

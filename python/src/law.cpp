@@ -15,6 +15,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -23,10 +24,10 @@ namespace salebra::python {
 void bind_law(nb::module_& m) {
   nb::class_<ContactLaw> law(
       m, "ContactLaw", nb::dynamic_attr(),
-      R"(Force–indentation law of a contact: all that the damping problem needs to know of it.
+      R"(Force–indentation law of a contact: the only input of the contact to the damping problem.
 
-Indentation δ grows with approach. Functions take a number or an array and return the same shape. Evaluation outside
-[lowest_indentation, highest_indentation] raises InvalidInput; below first touch, laws that define it return 0.
+The indentation δ increases as the bodies approach. Methods take a number or an array and return the same shape. Outside
+[lowest_indentation, highest_indentation] they raise InvalidInput; below first touch, laws with a first touch return 0.
 )");
   number_method(law, "force", "indentation", &ContactLaw::force, "F(δ), N.");
   number_method(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
@@ -34,21 +35,20 @@ Indentation δ grows with approach. Functions take a number or an array and retu
   number_method(law, "force_curvature", "indentation", &ContactLaw::force_curvature,
                 "K' = F'', N/m².");
   number_method(law, "tangential_stiffness", "indentation", &ContactLaw::tangential_stiffness,
-                "K_t, N/m: (G*/E*)K unless the law was given a K_t of its own.");
+                "K_t, N/m: (G*/E*)K unless the law has its own K_t.");
   number_method(law, "tangential_curvature", "indentation", &ContactLaw::tangential_curvature,
                 "K_t', N/m².");
   number_method(
       law, "indentation_of", "force", &ContactLaw::indentation_of,
-      "δ with F(δ) = force > 0, m; raises InvalidInput where the law does not reach that force.");
-  law.def_prop_ro("lowest_indentation", &ContactLaw::lowest_indentation,
-                  "−∞ unless the law is a table, m.")
-      .def_prop_ro("highest_indentation", &ContactLaw::highest_indentation,
-                   "+∞ unless the law is a table, m.")
-      .def_prop_ro(
-          "break_points", [](const ContactLaw& self) { return array_of(self.break_points()); },
-          nb::rv_policy::automatic,
-          "Indentations at which F, K, K_t or a first derivative jumps, m.")
-      .def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
+      "δ with F(δ) = force > 0, m; raises InvalidInput if the law does not reach that force.");
+  const auto length = [&law](auto member, const char* name, const char* meaning) {
+    described_property(law, member, Kept{name, meaning, Dimension::length});
+  };
+  length(&ContactLaw::lowest_indentation, "lowest_indentation", "−∞ unless the law is a table");
+  length(&ContactLaw::highest_indentation, "highest_indentation", "+∞ unless the law is a table");
+  length(&ContactLaw::break_points, "break_points",
+         "indentations at which F, K, K_t or a first derivative jumps");
+  law.def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
       .def(
           "plot",
           [](nb::handle_t<ContactLaw> self, nb::args arguments, nb::kwargs keywords) {
@@ -65,7 +65,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
              const std::string& units, std::optional<std::pair<double, double>> pressure_window,
              int rows, int sliders, double min_force, const std::string& name,
              const std::string& source) {
-            // The law outlives the call.
+            // A pointer that does not own the law, which outlives this call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
             const DeckProblem problem{.contacts = {deck_contact(alias, indentation)},
                                       .format = format.value("format"),
@@ -85,31 +85,31 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           nb::arg("friction_coefficient") = DeckContact::unknown, nb::arg("units") = "m,kg,s",
           nb::arg("pressure_window") = nb::none(), nb::arg("rows") = 200, nb::arg("sliders") = 200,
           nb::arg("min_force") = 0.01, nb::arg("name") = "contact", nb::arg("source") = "",
-          R"(The law as input of another program: the text of a deck.
+          R"(Returns the law as input of another program: the text of a deck.
 
 Parameters
 ----------
 format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "jenkins", "c_header"}
-    Jenkins are sliders in parallel, Iwan's model; the last is `ContactElement` without dependencies.
+    "jenkins": sliders in parallel, Iwan's model; "c_header": `ContactElement` without dependencies.
 indentation : float, optional
-    Where friction and sliders are taken, m; of an exponential law 0 unless given. A law without a table is exported from a thousandth
-    to ten times the force there.
+    Indentation at which friction and sliders are computed, m; 0 by default for an exponential law. A law without a table is exported
+    from a thousandth to ten times the force there.
 nominal_area : float
-    m², over which the force is a pressure; not for sliders.
+    Area, m², that converts force to pressure; not for sliders.
 friction_coefficient : float
-    For decks with friction and for sliders.
+    Needed for decks with friction and for sliders.
 units : str
-    Length, mass and time of the other program, such as "mm,t,s".
+    Units of length, mass and time in the other program, such as "mm,t,s".
 pressure_window : (float, float), optional
     Nominal pressures of a table, Pa.
 rows, sliders : int
-    How many; of a C header `sliders` are its levels.
+    Number of rows and sliders; in a C header `sliders` is the number of springs.
 min_force : float
-    T/(μF) from which the loss of sliders is right to 1 %.
+    T/(μF) above which the loss of the sliders is correct to 1 %.
 name : str
-    With which every name of a C header begins.
+    Prefix of every name in a C header.
 source : str
-    Of the law, for the header.
+    Source of the law, for the header.
 
 Returns
 -------
@@ -118,7 +118,7 @@ str
 Raises
 ------
 InvalidInput
-    For a law that is not convex, and for what the format needs and was not given.
+    If the law is not convex, or if an argument is missing that the format needs.
 )");
 
   nb::class_<PowerLaw, ContactLaw>(
@@ -131,18 +131,19 @@ InvalidInput
       .def_prop_ro("exponent", &PowerLaw::exponent, "n.");
   nb::class_<ExponentialLaw, ContactLaw>(
       m, "ExponentialLaw",
-      "F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝ "
+      "F = F0 exp(δ/l), where δ = 0 at F = F0: the law of nominally flat rough surfaces, F ∝ "
       "exp(−ū/l).\n\n"
       "reference_force: F0, N; decay_length: l, m; modulus_ratio: G*/E*.")
       .def(nb::init<double, double, double>(), nb::arg("reference_force"), nb::arg("decay_length"),
            nb::arg("modulus_ratio"))
       .def_prop_ro("decay_length", &ExponentialLaw::decay_length, "l, m.");
-  nb::class_<TabulatedLaw, ContactLaw>(m, "TabulatedLaw",
-                                       R"(A curve, computed or read from a file, shape-preserving.
+  nb::class_<TabulatedLaw, ContactLaw>(
+      m, "TabulatedLaw",
+      R"(A law by shape-preserving interpolation of a curve, computed or read from a file.
 
-ln F against δ is interpolated by a monotone cubic whose slopes at the nodes are K/F where every sample has K; K = F' and K' = F''
-are its exact derivatives. K_t: where every sample has one, interpolated likewise; otherwise (G*/E*)K. δ is the samples'
-indentation, or −ū where any of them lacks it.
+ln F over δ is interpolated by a monotone cubic; if every sample has K, its slopes at the nodes are K/F. K = F' and K' = F'' are its exact
+derivatives. K_t is interpolated in the same way if every sample has one; otherwise it is (G*/E*)K. δ is the indentation of the samples,
+or −ū if any sample has none.
 
 Parameters
 ----------

@@ -8,6 +8,7 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
@@ -21,7 +22,7 @@ void bind_profile(nb::module_& m) {
 
 .. math:: g(x) = |x|\int_0^{|x|}\frac{f'(r)\,dr}{\sqrt{x^2-r^2}} \quad\text{Eq. (3) of doi:10.1038/srep16189}
 
-Functions take a number or an array of radii, m, up to `max_radius`.
+Methods take a radius or an array of radii, m, up to `max_radius`.
 )");
   number_method(profile, "height", "r", &Profile::height, "f(r), m.");
   number_method(profile, "image", "x", &Profile::image, "g(x), m.");
@@ -30,10 +31,12 @@ Functions take a number or an array of radii, m, up to `max_radius`.
   number_method(profile, "image_integral", "x", &Profile::image_integral, "∫_0^x g dx, m².");
   number_method(profile, "contact_radius", "indentation", &Profile::contact_radius,
                 "a with g(a) = indentation, m.");
-  profile.def_prop_ro("flat_radius", &Profile::flat_radius, "Radius of the flat end, m.")
-      .def_prop_ro("max_radius", &Profile::max_radius, "Where the profile ends, m.")
-      .def_prop_ro("has_side", &Profile::has_side,
-                   "Whether the contact stops growing at max_radius.");
+  described_property(profile, &Profile::flat_radius,
+                     Kept{"flat_radius", "radius of the flat end", Dimension::length});
+  described_property(profile, &Profile::max_radius,
+                     Kept{"max_radius", "radius where the profile ends", Dimension::length});
+  profile.def_prop_ro("has_side", &Profile::has_side,
+                      "Whether the contact stops growing at max_radius.");
 
   const auto made_by = [&m](const char* name, auto make, const char* description,
                             auto... arguments) {
@@ -92,7 +95,7 @@ Parameters
 ----------
 profile : IndenterProfile
 material : Material
-    With G*.
+    Must have G*.
 )");
   number_method(law, "contact_radius", "indentation", &Law::contact_radius, "a, m.");
   law.def(

@@ -7,7 +7,7 @@ NB_MODULE(_core, m) {
   m.doc() = "The C++ library salebra. Import `salebra`, which has everything that is here.";
   using namespace salebra::python;
   salebra::confinement::install();
-  nanobind::module_::import_("numpy");  // once, here, rather than inside the first call
+  nanobind::module_::import_("numpy");  // imported now, and not in the first call that needs it
   bind_base(m);
   bind_surface(m);
   bind_generators(m);

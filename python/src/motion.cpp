@@ -27,8 +27,7 @@ tangential_amplitude : float
 phase : float
     φ0, rad.
 angular_frequency : float
-    ω, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping constant do. Or
-    ``frequency``, ω/2π in Hz.
+    ω, rad/s; or ``frequency``, ω/2π in Hz. 0: not known. Power and damping constant depend on it, the work per cycle does not.
 )");
   keyword_constructor(equal, 3);
   auto drag = described_class<Drag>(
@@ -47,11 +46,10 @@ angular_frequency : float
     ω > 0, rad/s; or ``frequency``, ω/2π in Hz.
 )");
   keyword_constructor(drag, 3);
-  auto two = described_class<TwoFrequencies>(
-      m, "TwoFrequencies",
-      "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal "
-      "ones are case (a), slow tangential "
-      "motion tends to case (b).");
+  auto two = described_class<TwoFrequencies>(m, "TwoFrequencies",
+                                             "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x "
+                                             "t + φ0). Equal frequencies are case (a); slow "
+                                             "tangential motion approaches case (b).");
   keyword_constructor(two, 5);
   m.def(
       "common_period",
@@ -60,21 +58,21 @@ angular_frequency : float
         return std::pair(period.normal_cycles, period.tangential_cycles);
       },
       nb::arg("motion"), nb::arg("max_cycles") = 1000,
-      "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) where the motion never repeats within "
+      "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) if the motion does not repeat within "
       "max_cycles normal cycles.");
 
   described_class<SampledMotion>(
       m, "SampledMotion",
-      R"(One period of any motion, straight between the samples; the last sample closes the period.
+      R"(One period of any motion, linear between the samples; the last sample closes the period.
 
 Parameters
 ----------
 time : array_like
     s, strictly increasing.
 indentation : array_like
-    δ, m; returns to its first value.
+    δ, m; the last value equals the first.
 displacement : array_like
-    x, m; may have moved on by a drift, which every period repeats.
+    x, m; the last value may differ from the first by a drift, which every period repeats.
 )")
       .def(
           "__init__",
@@ -92,8 +90,9 @@ displacement : array_like
                            [&](const auto& one) { return sample(one, mean_indentation, steps); });
       },
       nb::arg("motion"), nb::arg("mean_indentation"), nb::arg("steps"),
-      "One period about a mean indentation (m), `steps` straight steps for each normal cycle, "
-      "beginning at a minimum of δ.");
+      "Samples one period about a mean indentation (m), with `steps` linear steps in each normal "
+      "cycle, "
+      "starting at a minimum of δ.");
 }
 
 }  // namespace salebra::python

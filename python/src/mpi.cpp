@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Module salebra._mpi: the processes of an MPI communicator, for salebra._core. A module of its
-// own, so that MPI is loaded with the first surface that is spread, and a package without this file
-// needs no MPI.
+// Module salebra._mpi: MPI communicators for salebra._core. It is a module of its own, so that MPI
+// is only loaded for the first distributed surface, and a package without this module needs no MPI.
 #include "mpi/mpi.hpp"
 
 #include <nanobind/nanobind.h>
@@ -22,8 +21,10 @@ constexpr bool open_mpi = true;
 constexpr bool open_mpi = false;
 #endif
 
-// Open MPI's handles are pointers, those of the others are numbers. Where another library's names
-// came first into the process, these calls reach that one.
+// The version of the loaded MPI library, if it is of the kind for which this module was built;
+// otherwise the name of this kind. The kind matters, since handles of Open MPI are pointers and
+// those of other libraries numbers. If a library of the wrong kind was loaded first, MPI calls
+// reach that library.
 std::string library_version() {
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;

@@ -42,7 +42,7 @@ nb::dict attributes_in(const ResultReader& reader, const std::string& path) {
 void bind_reader(nb::module_& m) {
   nb::class_<ResultReader>(
       m, "ResultReader", nb::dynamic_attr(),
-      R"(Reads a file of results as arrays with units: what the program's ``-o FILE.h5`` and the write functions made.
+      R"(Reads files of results as arrays with units: those of the program, ``-o FILE.h5``, and of the write functions.
 
 Groups are the stages of a computation (`surface`, `curve`, `fit`, `damping`, …); datasets lie on coordinates of their group. Paths are
 like "curve/pressure". Any HDF5 file of real numbers can be read.
@@ -54,7 +54,7 @@ file : str or os.PathLike
 Raises
 ------
 InvalidInput
-    "<file>: <what is wrong>; <what to do>" for what is not there, is of another kind, or damaged.
+    "<file>: <what is wrong>; <what to do>" for a file that is absent, of another kind or damaged.
 
 Examples
 --------
@@ -71,19 +71,20 @@ Examples
            "Whether there is such a group or dataset.")
       .def("__getitem__", &array_in, nb::arg("dataset"),
            nb::sig("def __getitem__(self, dataset: str) -> numpy.typing.NDArray[typing.Any]"),
-           "The values of a dataset, an array of its own: float64 (whole numbers too), bool for "
-           "flags, str for names; zero-dimensional for a single number.")
-      .def("coordinates", &ResultReader::coordinates, nb::arg("dataset"),
-           "Names of the coordinates on which a dataset lies, one for each axis; none for a "
-           "coordinate.")
+           "The values of a dataset as a new array: float64 (whole numbers too), bool for truth "
+           "values, str "
+           "for names; zero-dimensional for a single number.")
+      .def(
+          "coordinates", &ResultReader::coordinates, nb::arg("dataset"),
+          "Names of the coordinates of a dataset, one for each axis; none for a coordinate itself.")
       .def(
           "units",
           [](const ResultReader& self, const std::string& dataset) {
-            self.shape(dataset);  // it must be there
+            self.shape(dataset);  // throws if the file has no such dataset
             return self.text_attribute(dataset, "units").value_or("");
           },
           nb::arg("dataset"),
-          "SI unit of a dataset, \"1\" for pure numbers; empty where it has none.")
+          "SI unit of a dataset, \"1\" for pure numbers; empty if it has no unit.")
       .def("attributes", &attributes_in, nb::arg("path") = "/",
            nb::sig("def attributes(self, path: str = '/') -> dict[str, float | str]"),
            "Attributes of a group or dataset; those of \"/\" are the provenance: program, version, "
@@ -101,8 +102,7 @@ Examples
 }
 
 void bind_report(nb::module_& m) {
-  m.def("can_report", &can_report,
-        "Whether this build carries plotly.js, without which no report can be drawn.");
+  m.def("can_report", &can_report, "Whether this build has plotly.js, which reports need.");
   m.def(
       "write_report",
       [](const std::filesystem::path& results, const std::filesystem::path& html,
@@ -112,30 +112,30 @@ void bind_report(nb::module_& m) {
       },
       nb::arg("results"), nb::arg("html"), nb::kw_only(), nb::arg("title") = "",
       nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,
-      R"(Makes one HTML page of the results of a study, as the program's command `report` does; it needs no network.
+      R"(Writes an HTML page about the results of a study, as the program's command `report` does. The page needs no network.
 
-Conclusion and warnings first, then the surface, force over mean gap with the fit and its residuals, the models side by side, damping
-with bands, settings and provenance; every figure with its numbers as a table and as CSV.
+The page has results and warnings, the surface, force over mean gap with the fit and its residuals, a comparison of the models, damping
+with bands, settings and provenance. Every figure comes with its numbers as a table and as CSV.
 
 Parameters
 ----------
 results : str or os.PathLike
-    What :meth:`StudyResult.write`, :func:`write_ensembles` or the program's `study` and `compare` wrote.
+    A file of :meth:`StudyResult.write`, :func:`write_ensembles`, or of the program's `study` or `compare`.
 html : str or os.PathLike
     The page; it appears complete or not at all.
 title : str
-    Heading; empty: from where the surface came.
+    Heading; empty: the origin of the surface.
 direct : list of str or os.PathLike
-    What the program's `oscillate` wrote of the same surface and motion, to be drawn beside the damping curves.
+    Files of the program's `oscillate` for the same surface and motion, drawn with the damping curves.
 overwrite : bool
     Replace an existing page.
 
 Raises
 ------
 InvalidInput
-    For a file that is not there, damaged or contains no study, and for a page that exists.
+    For a file that is absent, damaged or without a study, and for a page that exists.
 IoError
-    Where :func:`can_report` is false, or the system refuses.
+    If :func:`can_report` is false, or if the operating system refuses.
 )");
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-/// make(grid, sizes…, center) of as many sizes as there are arguments.
+/// Binds a generator make(grid, sizes…, center), with one size for each name in `argument`.
 template <class Make, class... Argument>
 void body(nb::module_& m, const char* name, Make make, const char* description,
           Argument... arguments) {
@@ -39,9 +39,9 @@ void bind_shapes(nb::module_& m) {
         return Point{point.x, point.y};
       },
       nb::arg("grid"),
-      "The middle of the grid moved by (0.31, 0.17) of a cell, (x, y) in m: off the grid the "
-      "contact area of a symmetric body does "
-      "not jump by many cells at a time.");
+      "The middle of the grid, moved by (0.31, 0.17) of a cell, as (x, y) in m. With such a centre "
+      "the "
+      "contact area of a symmetric body does not jump by many cells at a time.");
   body(m, "paraboloid_surface", &paraboloid_surface, "h = −r²/(2 radius), m.", nb::arg("radius"));
   body(m, "elliptic_paraboloid_surface", &elliptic_paraboloid_surface,
        "h = −x²/(2 radius_x) − y²/(2 radius_y), m.", nb::arg("radius_x"), nb::arg("radius_y"));

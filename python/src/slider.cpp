@@ -40,15 +40,15 @@ falling_slope : float
   keyword_constructor(slider, 3);
 
   described_class<SliderMotion>(m, "SliderMotion",
-                                "The motion in which a slider ends, means over slow cycles; NaN is "
-                                "unknown.");
+                                "Final motion of a slider, with means over slow cycles; unknown "
+                                "numbers are NaN.");
   described_class<SliderStability>(
       m, "SliderStability",
-      "What becomes of a small disturbance of steady sliding; NaN is unknown.");
-  described_class<SliderThreshold>(
-      m, "SliderThreshold",
-      "Least amplitude (m) or angular frequency (rad/s) of the normal "
-      "oscillation at which sliding is stable; NaN: none in the range.");
+      "Growth or decay of a small disturbance of steady sliding; unknown numbers are NaN.");
+  described_class<SliderThreshold>(m, "SliderThreshold",
+                                   "Minimum amplitude (m) or angular frequency (rad/s) of the "
+                                   "normal oscillation at which sliding is "
+                                   "stable; NaN: none in the range.");
 }
 
 void bind_functions(nb::module_& m) {
@@ -83,8 +83,8 @@ void bind_functions(nb::module_& m) {
       nb::arg("progress") = false,
       R"(Stick–slip or steady sliding of a slider on a contact whose indentation is δ0 − u_z cos ωt.
 
-The contact's levels are followed with their history until the motion repeats, with `steps` and more in each period; averaged: instead
-the equation with the mean friction force of `steady_sliding()`.
+The simulation follows the history of the springs of the contact until the motion repeats, with at least `steps` steps in each period. With
+`averaged` it uses the mean friction force of `steady_sliding()` instead.
 
 Parameters
 ----------
@@ -94,18 +94,18 @@ friction_coefficient : float
 normal_amplitude, angular_frequency : float
     u_z, m, and ω, rad/s; without them no oscillation.
 indentation, force : float
-    δ0, m, or the force, N; one of the two.
+    δ0, m, or the force, N. Give exactly one.
 averaged : bool
 hold : str
-    What stays in the mean.
+    Which mean over a cycle stays fixed.
 start : str
-    At rest on the point of slipping, or sliding with a small disturbance.
+    At rest on the verge of slipping, or sliding with a small disturbance.
 steps : int
-    In a period, doubled until the tolerance is met.
+    Steps in a period, doubled until the tolerance is met.
 tolerance : float
-    Relative, of the amplitude of a slow cycle.
+    Relative tolerance of the amplitude of a slow cycle.
 max_cycles : int
-    Slow cycles after which the motion is given up.
+    Maximum number of slow cycles.
 progress : bool or callable
 )");
   m.def(
@@ -124,7 +124,8 @@ progress : bool or callable
       nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("steps") = 32,
-      "Whether small disturbances of steady sliding grow, by the full equation of motion and by "
+      "Tests whether small disturbances of steady sliding grow, by the full equation of motion and "
+      "by "
       "dT̄/dv + c − b; indentation (m) or force (N), one of the two.");
   m.def(
       "threshold_amplitude",
@@ -139,30 +140,27 @@ progress : bool or callable
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
-      nb::arg("angular_frequency"), nb::arg("max_amplitude"),
-      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
-      "The least normal amplitude (m) at which small disturbances of sliding die out; indentation "
+      nb::arg("angular_frequency"), nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      "Minimum normal amplitude (m) at which small disturbances of sliding decay; indentation "
       "(m) or force (N), one of the two.");
   m.def(
       "threshold_angular_frequency",
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
-         double normal_amplitude, double max_angular_frequency,
-         std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
-         int steps) {
+         double normal_amplitude, double max_angular_frequency, std::optional<double> indentation,
+         std::optional<double> force, const Choice<Hold>& hold, int steps) {
         const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_angular_frequency(law, point,
-                                             {normal_amplitude, max_angular_frequency}, slider,
-                                             friction_coefficient, options);
+          return threshold_angular_frequency(law, point, {normal_amplitude, max_angular_frequency},
+                                             slider, friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude"), nb::arg("max_angular_frequency"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("steps") = 32,
-      "The least angular frequency (rad/s) at which small disturbances of sliding die out; "
+      "Minimum angular frequency (rad/s) at which small disturbances of sliding decay; "
       "indentation (m) or force (N), one of the two.");
 }
 

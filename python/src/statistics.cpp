@@ -29,7 +29,7 @@ void bind_spectra(nb::module_& m) {
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
 
-on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. Of a surface that is spread over processes each holds some of the columns j.
+on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. If the surface is distributed over processes, each has some of the columns j.
 )");
   result_methods(power, false);
   m.def(
@@ -44,7 +44,7 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. Of a surface that i
 Parameters
 ----------
 surface : Surface
-    Complete; subtract its tilt before.
+    Without undefined points; subtract the tilt before.
 window : {"default", "none", "hann", "blackman", "welch", "radial_hann"}
     "default": none for a periodic surface, "hann" for any other.
 )");
@@ -53,7 +53,7 @@ window : {"default", "none", "hann", "blackman", "welch", "radial_hann"}
                                                 "C averaged over rings of wave vectors.");
   result_methods(radial, true);
   m.def("radial_spectrum", &radial_spectrum, nb::arg("spectrum"), nb::arg("bins_per_octave") = 4,
-        "C over rings whose limits are in the ratio 2^(1/bins_per_octave).");
+        "Averages C over rings whose limits have the ratio 2^(1/bins_per_octave).");
 
   auto profile = described_class<ProfilePsd>(
       m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
@@ -70,7 +70,7 @@ window : {"default", "none", "hann", "blackman", "welch", "radial_hann"}
 
   described_class<ConvertedPsd>(
       m, "ConvertedPsd",
-      "A power spectral density in another convention, with what it takes to read it.");
+      "A power spectral density in the convention of another program, with its units.");
   m.def(
       "converted",
       [](const RadialSpectrum& spectrum, const Grid2D& grid,
@@ -92,25 +92,24 @@ wave numbers, m²; "rfgen" (2π/dx)²C over cycles in a sample, m².
 }
 
 void bind_hurst(nb::module_& m) {
-  described_class<HurstEstimate>(
-      m, "HurstEstimate",
-      "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.");
+  described_class<HurstEstimate>(m, "HurstEstimate",
+                                 "Hurst exponent of the self-affine range, with its 95 % interval; "
+                                 "NaN if there is no such range.");
   m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"), nb::arg("shortest_wavelength") = 0,
         "Hurst exponent by maximum quasi-likelihood over the power-law part of a "
         ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
   described_class<IntervalEstimate>(m, "IntervalEstimate",
-                                    "A value with its 95 % interval; NaN where there is none.");
+                                    "A value with its 95 % interval; NaN if unknown.");
   described_class<ProfileFit>(
-      m, "ProfileFit",
-      "A line profile, and the isotropic surface of whose profiles it can be one.");
+      m, "ProfileFit", "A line profile, and an isotropic surface that can have this profile.");
   m.def(
       "fit_profile",
       [](const BoundSurface& profile, double shortest_wavelength) {
         return unlocked([&] { return fit_profile(profile.surface, shortest_wavelength); });
       },
       nb::arg("profile"), nb::arg("shortest_wavelength") = 0,
-      "Rq, slope and the isotropic self-affine surface of a line profile, a surface of one row as "
-      ":func:`read_surface` with ``profiles=True`` gives it.");
+      "Rq, slope and the isotropic self-affine surface of a line profile: a surface of one row, as "
+      ":func:`read_surface` with ``profiles=True`` returns it.");
   described_class<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.");
   m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
         nb::arg("shortest_wavelength") = 0,
@@ -127,7 +126,7 @@ void bind_correlation(nb::module_& m) {
 Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 )");
   m.def("correlation_map", &of_surface<correlation_map>, nb::arg("surface"),
-        "Correlation of a surface; undefined points take no part.");
+        "Correlation of a surface, without its undefined points.");
   auto correlation = described_class<Correlation>(
       m, "Correlation", "Autocorrelation and structure function over distance.");
   result_methods(correlation, true);
@@ -136,13 +135,14 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
       [](const CorrelationMap& map_, const Choice<Axis>& axis) {
         return profile_correlation(map_, axis.value("axis"));
       },
-      nb::arg("map"), nb::arg("axis") = "x", "Along one axis: the mean over all profiles.");
+      nb::arg("map"), nb::arg("axis") = "x",
+      "Correlation along one axis: the mean over all profiles.");
   m.def("radial_correlation", &radial_correlation, nb::arg("map"), nb::arg("bins_per_octave") = 4,
-        "Mean over all directions, in rings.");
+        "Correlation over distance: the mean over all directions, in rings.");
 
   auto scale = described_class<ScaleDependence>(
       m, "ScaleDependence",
-      "Slope and curvature along one axis over the distance of their differences, "
+      "Slope and curvature along one axis, over the distance used in the finite differences, "
       "doi:10.1016/j.apsadv.2021.100190.");
   result_methods(scale, true);
   m.def(
@@ -157,7 +157,7 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 
   described_class<ReliabilityLimit>(
       m, "ReliabilityLimit",
-      "Wavelengths below which a measured surface is the instrument's rather than its own.");
+      "Wavelengths below which a measured surface shows the instrument rather than the surface.");
   m.def(
       "short_wavelength_limit",
       [](const BoundSurface& surface, std::optional<double> tip_radius,
@@ -175,11 +175,11 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 void bind_bearing(nb::module_& m) {
   nb::class_<BearingCurve> bearing(m, "BearingCurve", nb::dynamic_attr(),
                                    "Abbott and Firestone's bearing curve c(p): the height above "
-                                   "which the part p of the surface lies.");
+                                   "which a fraction p of the surface lies.");
   number_method(bearing, "height", "area_fraction", &BearingCurve::height,
                 "c(p), m; ISO 25178-2 Smc(p).");
   number_method(bearing, "area_fraction", "height", &BearingCurve::area_fraction,
-                "The part of the surface above a height, m; ISO 25178-2 Smr(c).");
+                "The fraction of the surface above a height, m; ISO 25178-2 Smr(c).");
   bearing
       .def(
           "__init__",
@@ -193,15 +193,17 @@ void bind_bearing(nb::module_& m) {
           [](nb::handle_t<BearingCurve> self) {
             return view(nb::cast<const BearingCurve&>(nb::handle(self)).heights(), self);
           },
-          "Falling, m.");
+          "Heights in decreasing order, m.");
   described_class<CoreParameters>(m, "CoreParameters",
                                   "Core, peaks and valleys of a bearing curve by ISO 25178-2.");
   m.def("core_parameters", &core_parameters, nb::arg("curve"), "Sk, Spk, Svk, Smr1, Smr2.");
   auto histogram = described_class<HeightHistogram>(
-      m, "HeightHistogram", "Heights in bins of equal width, at their middles.");
+      m, "HeightHistogram",
+      "Density of heights in bins of equal width, at the middles of the bins.");
   result_methods(histogram, true);
   m.def("height_histogram", &height_histogram, nb::arg("curve"), nb::arg("bins") = 0,
-        "bins = 0: of width 2·(interquartile range)/N^(1/3), doi:10.1007/BF01025868.");
+        "Histogram of the heights. bins = 0: bins of width 2·(interquartile range)/N^(1/3), "
+        "doi:10.1007/BF01025868.");
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ void bind_stiffness(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return stick_stiffness(contact.set, grid, material, options, along_x_only, {}, communicator);
+              return stick_stiffness(contact.set, grid, material, options, along_x_only, {},
+                                     communicator);
             },
             communicator);
       },
@@ -59,20 +60,20 @@ contact : array_like of bool
     (nx, ny). Cells in contact, such as ``state.contact_pressure > 0``.
 grid : Grid2D
 material : Material
-    With the constants of its bodies.
+    Must have the constants of the two bodies.
 tolerance : float
-    Of the displacement; K_t is better by a square. 1e-14 … 1e-1.
+    Tolerance of the displacement, 1e-14 … 1e-1; the error of K_t is its square.
 hold_lateral : bool
     The displacement across the motion is held at 0; False: the traction across it is 0.
 along_x_only : bool
-    One direction alone costs half; yy and xy are NaN.
+    Solve one direction only, at half the cost; yy and xy are NaN.
 comm : mpi4py.MPI.Intracomm, optional
-    The processes whose rows `contact` is, where it comes from a surface that is spread.
+    The processes, if `contact` has the rows of a distributed surface.
 
 Raises
 ------
 InvalidInput
-    If every cell of a periodic grid is in contact: it has no finite stiffness.
+    If every cell of a periodic grid is in contact: the stiffness is infinite.
 )");
   described_class<PunchStiffness>(m, "PunchStiffness",
                                   "Normal stiffness of a contact set: a flat punch of that shape.");
@@ -93,17 +94,16 @@ InvalidInput
       nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
       nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
-      "Normal stiffness K = dF/dδ of a contact set, N/m. The same of a state: "
-      ":func:`normal_stiffness`.");
+      "Normal stiffness K = dF/dδ of a contact set, N/m. For a state: :func:`normal_stiffness`.");
 }
 
 void bind_sliding(nb::module_& m) {
   described_class<PartialSlipReport>(m, "PartialSlipReport", "How a partial-slip solve ended.");
   nb::class_<SlidingContact> sliding(
       m, "SlidingContact",
-      R"(A rough contact with friction that remembers where each of its cells has been drawn to.
+      R"(A rough contact with friction that keeps the history of each cell.
 
-Increments of pressures and of a tangential move, each solved implicitly with ``|τ| <= μp`` in every cell.
+Each increment of pressures and of a tangential move is solved implicitly with ``|τ| <= μp`` in every cell.
 
 Parameters
 ----------
@@ -114,7 +114,7 @@ friction_coefficient : float
 motion_scale : float
     > 0, m: the tangential displacement that the tolerance refers to.
 tolerance, max_iterations, boundary
-    Of the linear solves.
+    Options of the linear solves.
 )");
   sliding
       .def(
@@ -140,7 +140,7 @@ tolerance, max_iterations, boundary
             return unlocked([&] { return self.advance(field.field(), {x, y}); });
           },
           nb::arg("pressure"), nb::arg("x") = 0.0, nb::arg("y") = 0.0,
-          "To new pressures (nx, ny), Pa, while the body moves by (x, y), m.")
+          "Moves the body by (x, y), m, while the pressures change to `pressure` (nx, ny), Pa.")
       .def(
           "slide",
           [](SlidingContact& self, const FieldArgument& pressure, double x, double y) {
@@ -148,52 +148,42 @@ tolerance, max_iterations, boundary
             unlocked([&] { self.slide(field.field(), {x, y}); });
           },
           nb::arg("pressure"), nb::arg("x") = 1.0, nb::arg("y") = 0.0,
-          "The state after endless sliding along (x, y) at these pressures; sets work and losses "
-          "to 0.")
-      .def_prop_ro(
-          "contact_pressure",
-          [](nb::handle_t<SlidingContact> self) {
-            return view(nb::cast<SlidingContact&>(nb::handle(self)).contact_pressure(), self);
-          },
-          "Pa")
-      .def_prop_ro(
-          "traction_x",
-          [](nb::handle_t<SlidingContact> self) {
-            return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().x, self);
-          },
-          "Pa")
-      .def_prop_ro(
-          "traction_y",
-          [](nb::handle_t<SlidingContact> self) {
-            return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().y, self);
-          },
-          "Pa")
-      .def_prop_ro(
-          "loss",
-          [](nb::handle_t<SlidingContact> self) {
-            return view(nb::cast<SlidingContact&>(nb::handle(self)).loss(), self);
-          },
-          "Friction's work in each cell since the start, J.")
-      .def_prop_ro(
-          "tangential_force_x",
-          [](const SlidingContact& self) { return self.tangential_force().x; }, "N")
-      .def_prop_ro(
-          "tangential_force_y",
-          [](const SlidingContact& self) { return self.tangential_force().y; }, "N")
+          "Sets the state after endless sliding along (x, y) at these pressures, with work and "
+          "losses "
+          "0.")
       .def_prop_ro("slipping", &SlidingContact::slipping,
-                   "Cells at their limit after the last increment.")
-      .def_prop_ro("stored_energy", &SlidingContact::stored_energy, "J")
-      .def_prop_ro("work", &SlidingContact::work, "∫F dx since the start, J.")
-      .def_prop_ro("released_energy", &SlidingContact::released_energy, "J")
+                   "Number of cells at their friction limit after the last increment.")
       .def_prop_ro(
           "converged",
           [](const SlidingContact& self) { return self.termination() == Termination::converged; },
-          "Every increment did.")
+          "Whether every increment converged.")
       .def_prop_ro(
           "termination",
           [](const SlidingContact& self) { return std::string(name_of(self.termination())); },
-          "How the increments ended, the worst of them: 'converged', 'stalled', 'iteration_limit', "
+          "How the worst increment ended: 'converged', 'stalled', 'iteration_limit', "
           "'out_of_range' or 'interrupted'.");
+  using enum Dimension;
+  using S = SlidingContact;
+  const auto property = [&sliding](auto member, const Kept& line) {
+    described_property(sliding, member, line);
+  };
+  property([](const S& s) -> const Field& { return s.contact_pressure(); },
+           {"contact_pressure", "contact pressure", pressure});
+  property([](const S& s) -> const Field& { return s.traction().x; },
+           {"traction_x", "shear traction along x", pressure});
+  property([](const S& s) -> const Field& { return s.traction().y; },
+           {"traction_y", "shear traction along y", pressure});
+  property([](const S& s) -> const Field& { return s.loss(); },
+           {"loss", "work of friction in each cell since the start", energy});
+  property([](const S& s) { return s.tangential_force().x; },
+           {"tangential_force_x", "tangential force along x", force});
+  property([](const S& s) { return s.tangential_force().y; },
+           {"tangential_force_y", "tangential force along y", force});
+  property(&S::stored_energy, {"stored_energy", "elastic energy of the tractions", energy});
+  property(&S::work, {"work", "∫F dx since the start", energy});
+  property(
+      &S::released_energy,
+      {"released_energy", "part of the sum of `loss` that cells released as they opened", energy});
 }
 
 }  // namespace

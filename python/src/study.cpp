@@ -19,6 +19,7 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/curves.hpp"
 #include "interop/described.hpp"
 #include "interop/path.hpp"
 #include "interop/reading.hpp"
@@ -36,7 +37,7 @@ void cite_study() {
 
 void bind_configuration(nb::module_& m) {
   described_class<StudyConfiguration>(m, "StudyConfiguration",
-                                      "Everything that decides the result of a study.")
+                                      "All settings that determine the result of a study.")
       .def(
           "with_models",
           [](const StudyConfiguration& self, const std::vector<std::string>& models) {
@@ -52,7 +53,7 @@ void bind_configuration(nb::module_& m) {
 Parameters
 ----------
 models : list of str
-    Of :func:`contact_models`. "bem" (boundary elements), which the others are measured by, is run in any case.
+    Names of :func:`contact_models`. "bem" (boundary elements), the reference for the others, always runs.
 
 Raises
 ------
@@ -85,9 +86,8 @@ InvalidInput
           nb::arg("pixel_size") = nb::none(), nb::arg("lateral_unit") = "",
           nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(), nb::arg("fill") = false,
           nb::arg("channel") = "",
-          "`file` in place of the surfaces of the configuration, which keeps everything else. The "
-          "others are those of :func:`read_surface`; few undefined points are filled without "
-          "`fill`.");
+          "The same study of the surface in `file`. The other arguments are those of "
+          ":func:`read_surface`; a few undefined points are filled even without `fill`.");
   m.def(
       "contact_models",
       [] {
@@ -96,7 +96,7 @@ InvalidInput
         return titles;
       },
       nb::sig("def contact_models() -> dict[str, str]"),
-      "Names of the contact models that a study may run, with their titles.");
+      "Names of the contact models of studies, with their titles.");
   m.def("read_study_configuration", &read_study_configuration, nb::arg("file"),
         "Reads a TOML file of a study; data/README.md explains each key. Raises InvalidInput "
         "\"FILE:LINE: table.key: …\".");
@@ -107,34 +107,68 @@ InvalidInput
       },
       nb::arg("text"), nb::arg("name") = "configuration",
       nb::arg("folder") = std::filesystem::path("."),
-      "The same from a text; `name` stands for the file in errors, relative paths are taken from "
+      "Reads a study configuration from a TOML text; errors call it `name`, and relative paths "
+      "start at "
       "`folder`.");
+}
+
+std::vector<double> pressures_of(const ModelResult& result) {
+  return result.curve.column(&ForceSample::pressure);
+}
+
+std::vector<double> pressures_of(const Realisation& realisation) {
+  return realisation.models.empty() ? std::vector<double>()
+                                    : pressures_of(realisation.models.front());
+}
+
+/// Means over the surfaces at each pressure, as a curve over the pressure. quantity: name of the
+/// quantity of the means.
+CurveOf<EnsembleMean> over_pressure(const StudyResult& result, std::vector<EnsembleMean> means,
+                                    const std::string& quantity) {
+  return {"pressure", result.pressures, std::move(means), quantity};
 }
 
 void bind_realisation(nb::module_& m) {
   described_class<DampingPoint>(m, "DampingPoint",
-                                "Damping at one pressure of a curve, by three routes.");
+                                "Damping at one pressure of a curve, computed in three ways.");
   described_class<SpotStatistics>(m, "SpotStatistics",
-                                  "Contact spots of the boundary elements at one pressure.");
-  described_class<AdhesionSample>(m, "AdhesionSample",
-                                  "An adhesive contact at a mean gap of a cycle, in and out.");
+                                  "Contact spots by boundary elements at one pressure.");
+  described_class<AdhesionSample>(
+      m, "AdhesionSample",
+      "An adhesive contact at one mean gap of a cycle, while loading and unloading.");
   described_class<AdhesionOfSurface>(m, "AdhesionOfSurface",
                                      "The adhesive cycle of one surface of a study.");
+  curve_class<DampingPoint>(
+      m, "DampingPointCurve",
+      "Damping over the pressure: a sequence of :class:`DampingPoint` with an "
+      "array for each number.");
+  curve_class<SpotStatistics>(m, "SpotCurve",
+                              "Contact spots over the pressure: a sequence of "
+                              ":class:`SpotStatistics` with an array for each number.");
+  curve_class<FlowFactors>(
+      m, "FlowFactorCurve",
+      "Flow factors over the pressure: a sequence of :class:`FlowFactors` with "
+      "an array for each number.");
   described_class<SurfacePicture>(
       m, "SurfacePicture", "Heights, first contacts, spectrum and distribution of a surface.");
-  described_class<ModelResult>(m, "ModelResult", "What one contact model says about one surface.");
+  auto model = described_class<ModelResult>(m, "ModelResult",
+                                            "Results of one contact model for one surface.");
+  const auto pressures = [](const auto& self) { return pressures_of(self); };
+  curve_property(model, "damping", &ModelResult::damping, pressures);
   nb::class_<Realisation> realisation =
       described_class<Realisation>(m, "Realisation", "Everything computed for one surface.");
+  curve_property(realisation, "spots", &Realisation::spots, pressures);
+  curve_property(realisation, "flow", &Realisation::flow, pressures);
   realisation
       .def(
           "model",
           [](const Realisation& self, const std::string& name) {
             return self.of(contact_model(name));
           },
-          nb::arg("name"), "What a model says, by its name; one of those that were asked for.")
+          nb::arg("name"), "Results of a model by its name, which must be in `models`.")
       .def_prop_ro(
           "bem", [](const Realisation& self) { return self.of(ContactModel::bem); },
-          "Boundary elements, which the other models are measured by.");
+          "Results of boundary elements, the reference for the other models.");
 }
 
 template <Described T>
@@ -153,23 +187,38 @@ void bind_result(nb::module_& m) {
         nb::sig("def _curve_columns() -> list[typing.Any]"));
   m.def("_damping_columns", &columns_of<DampingPoint>,
         nb::sig("def _damping_columns() -> list[typing.Any]"));
-  described_class<EnsembleMean>(m, "EnsembleMean",
-                                "A mean with its 95 % interval; NaN limits where there is none.");
+  described_class<EnsembleMean>(
+      m, "EnsembleMean", "A mean with its 95 % interval; the limits are NaN if there is none.");
   described_class<StatedMean>(m, "StatedMean",
                               "A mean with its 95 % interval and its numerical error.");
+  curve_class<EnsembleMean>(
+      m, "MeanCurve",
+      "Means over one quantity: a sequence of :class:`EnsembleMean` with arrays "
+      "of the means and their limits.");
+  curve_class<StatedMean>(
+      m, "StatedMeanCurve",
+      "Means over the pressure: a sequence of :class:`StatedMean` with arrays of "
+      "the means, their limits and their errors.");
   auto answer = described_class<StudySolution>(
       m, "StudySolution",
-      "What a study says of the motion that was described, at each pressure, and whether it may be "
-      "used.");
+      "Damping at each pressure for the motion as described, and whether the numbers can be used.");
+  using S = StudySolution;
+  const auto pressures = [](const S& self) { return self.pressures; };
+  curve_property(answer, "damping_constant", &S::damping_constant, pressures);
+  curve_property(answer, "work_per_cycle", &S::work_per_cycle, pressures);
+  curve_property(answer, "damping_constant_without_slip", &S::damping_constant_without_slip,
+                 pressures);
+  curve_property(answer, "thermal_conductance", &S::thermal_conductance, pressures);
+  curve_property(answer, "electrical_conductance", &S::electrical_conductance, pressures);
   result_methods(answer, true);
   answer.def("__repr__", [](const StudySolution& self) {
     return fmt::format("StudySolution(validity='{}', {} pressures)", name_of(self.validity),
                        self.damping_constant.size());
   });
   described_class<EnsembleWarning>(m, "EnsembleWarning",
-                             "Why a result may be off for other reasons than chance.");
-  auto result = described_class<StudyResult>(m, "StudyResult",
-                                             "The ensemble at one point of the parameter grid.");
+                                   "A systematic error that a result may have.");
+  auto result = described_class<StudyResult>(
+      m, "StudyResult", "Results of all surfaces at one point of the parameter grid.");
   result
       .def_prop_ro(
           "models",
@@ -178,7 +227,7 @@ void bind_result(nb::module_& m) {
             for (const StudyModel& model : self.models()) names.emplace_back(model.name);
             return names;
           },
-          "Names of the models that were asked for.")
+          "Names of the models that ran.")
       .def(
           "fitted",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
@@ -186,7 +235,7 @@ void bind_result(nb::module_& m) {
           },
           nb::arg("quantity"), nb::arg("model") = "bem",
           "Mean over the surfaces of a number of :class:`ModelResult`, such as \"area_slope\" or "
-          "\"law_bend\"; one surface has no interval.")
+          "\"law_bend\"; a single surface has no interval.")
       .def(
           "decay_length",
           [](const StudyResult& self, const std::string& model) {
@@ -202,22 +251,24 @@ void bind_result(nb::module_& m) {
       .def(
           "curve",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.curve(number_of<ForceSample>(quantity, "quantity"), contact_model(model));
+            return over_pressure(
+                self,
+                self.curve(number_of<ForceSample>(quantity, "quantity"), contact_model(model)),
+                quantity);
           },
           nb::arg("quantity"), nb::arg("model") = "bem",
           "Mean at each pressure of a quantity of the curve, such as \"mean_gap\".")
       .def(
           "damping",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.damping(quantity, contact_model(model));
+            return over_pressure(self, self.damping(quantity, contact_model(model)), quantity);
           },
           nb::arg("quantity") = "damping_constant", nb::arg("model") = "bem",
           "Mean at each pressure of a quantity of :class:`DampingPoint`, such as "
-          "damping_constant_closed_form (Eq. (16)). damping_constant is NaN where its error is not "
-          "smaller; "
-          "deviation is the ratio of the means of damping_constant_closed_form and "
-          "damping_constant, less "
-          "1.")
+          "damping_constant_closed_form (Eq. (16)). damping_constant is NaN if its error is not "
+          "smaller than it; deviation is the ratio of the means of damping_constant_closed_form "
+          "and "
+          "damping_constant, minus 1.")
       .def(
           "deviation_range",
           [](const StudyResult& self, const std::string& model) {
@@ -225,38 +276,48 @@ void bind_result(nb::module_& m) {
             return std::pair(low, high);
           },
           nb::arg("model") = "bem",
-          "Least and greatest deviation of Eq. (16) from the theorem on the curve.")
+          "Minimum and maximum deviation of Eq. (16) from the theorem on the curve.")
       .def(
           "solution",
           [](const StudyResult& self) { return unlocked([&] { return solution_of(self); }); },
-          "The damping constant of the contact as described, with slip where the coefficient of "
-          "friction is known, its shares, its verdicts and their verdict.")
+          "The damping constant of the motion as described (with slip if the coefficient of "
+          "friction is "
+          "known), its shares, its assumptions and their verdict.")
       .def(
           "surfaces_for",
           [](const StudyResult& self, double precision) { return surfaces_for(self, precision); },
           nb::arg("precision"),
-          "How many surfaces the mean of the damping constant without slip would need at each "
-          "pressure for a 95 % interval of ±precision, by the scatter of those at hand; NaN of one "
+          "Number of surfaces that the mean damping constant without slip needs at each pressure "
+          "for a "
+          "95 % interval of ±precision, estimated from the scatter of these surfaces; NaN for one "
           "surface.")
       .def("convergence_counts", &StudyResult::convergence_counts,
-           "Numbers of surfaces of convergence(): all up to 128, then 32 in each doubling.")
-      .def("convergence", &StudyResult::convergence,
-           "Mean l/h_rms over the first convergence_counts() surfaces.")
+           "Numbers of surfaces for convergence(): all up to 128, then 32 in each doubling.")
+      .def(
+          "convergence",
+          [](const StudyResult& self) {
+            const std::vector<std::size_t> counts = self.convergence_counts();
+            return CurveOf<EnsembleMean>{"surfaces",
+                                         {counts.begin(), counts.end()},
+                                         self.convergence(),
+                                         "decay_length_over_rms_height"};
+          },
+          "Mean l/h_rms over the first convergence_counts() surfaces.")
       .def("interval_method", &StudyResult::interval_method,
-           "How the intervals came about: one line.")
+           "How the intervals were computed, in one line.")
       .def(
           "write",
           [](const StudyResult& self, const std::filesystem::path& file, bool overwrite) {
             unlocked([&] { write_study(file, self, {}, {overwrite}); });
           },
           nb::arg("file"), nb::kw_only(), nb::arg("overwrite") = false,
-          "Writes an HDF5 file, each group of which xarray opens as it is: "
+          "Writes an HDF5 file. xarray opens each group: "
           "xarray.open_dataset(file, engine=\"h5netcdf\", "
           "group=\"damping\").");
   result_methods(result, false);
 }
 
-/// warn_user() from a run, which has given the interpreter's lock away.
+/// Calls warn_user() during a run, in which the interpreter's lock is not held.
 void warn_user_unlocked(const std::string& text) {
   const nb::gil_scoped_acquire locked;
   warn_user(text);
@@ -283,34 +344,34 @@ void bind_runs(nb::module_& m) {
   };
   define(
       "run_study", &run_study, true,
-      R"(Surface → statistics → contact models → exponential law → damping, for an ensemble or a measured surface.
+      R"(Runs surface → statistics → contact models → exponential law → damping, for an ensemble or a measured surface.
 
-Same bits for every thread count, and for a run that was stopped and continued.
+The bits do not depend on the number of threads, nor on whether the run was stopped and continued.
 
 Parameters
 ----------
 configuration : StudyConfiguration
 parts : str or os.PathLike, optional
-    Folder in which each finished surface is kept. A second call with the same folder and configuration continues the run.
+    Folder that keeps each finished surface. A second call with the same folder and configuration continues the run.
 resume : bool
-    False: a folder that holds surfaces already is refused.
+    False: refuse a folder that has surfaces already.
 progress : bool or callable
 
 Raises
 ------
 NotConverged
-    Where fewer than four contacts of a sweep converged.
+    If fewer than four contacts of a sweep converged.
 )");
   define("run_ensembles", &run_ensembles, false,
-         R"(The ensembles of every point of a configuration's parameter grid.
+         R"(Runs the ensembles of all points of a configuration's parameter grid.
 
 Parameters
 ----------
 configuration : StudyConfiguration
 parts : str or os.PathLike, optional
-    Folder in which each finished surface is kept, so that a run that was stopped can continue.
+    Folder that keeps each finished surface, from which a stopped run continues.
 resume : bool
-    A folder that holds surfaces already is accepted.
+    Accept a folder that has surfaces already.
 progress : bool or callable
 )");
   m.def(
@@ -329,11 +390,11 @@ progress : bool or callable
         return unlocked([&] { return is_result_of(file, study); });
       },
       nb::arg("file"), nb::arg("study"),
-      "Whether the file is the finished result of this study, of all its surfaces, models and "
-      "settings; False for any other file, and for none.");
+      "Whether the file is the complete result of this study, with all its surfaces, models and "
+      "settings; False for any other file, or if there is none.");
 
-  described_class<Check>(
-      m, "Check", "One number that this installation computes, beside what analysis says of it.");
+  described_class<Check>(m, "Check",
+                         "One number that this installation computes, with the analytical value.");
   m.def(
       "verify_installation",
       [](const ProgressArgument& progress) {

@@ -39,15 +39,15 @@ void bind_surface_class(nb::module_& m) {
 Parameters
 ----------
 heights : array_like
-    (nx, ny). Heights in m, `heights[ix, iy]`, x first; NaN where the instrument has no value. A C-contiguous float64 array is not
-    copied: the surface looks at the same memory. An xarray.DataArray over "x" and "y" is taken in either order, with the sizes of its
-    coordinates where none are given and the units of its attributes.
+    Heights (nx, ny) in m, `heights[ix, iy]`, x first; NaN where the instrument has no value. A C-contiguous float64 array is not
+    copied: the surface shares its memory. An xarray.DataArray over "x" and "y" may have either order; its coordinates give the sizes
+    if none are given, and its attributes the units.
 size_x, size_y : float
     Size, m. Point (ix, iy) lies at (ix·size_x/nx, iy·size_y/ny).
 periodic : bool
-    Whether the surface repeats itself. Generated surfaces do, measured ones do not.
+    Whether the surface repeats itself. Generated surfaces do, measured surfaces do not.
 origin : str
-    Where it comes from; for provenance only.
+    Origin of the surface, for provenance only.
 
 Examples
 --------
@@ -65,7 +65,20 @@ True
   property("ny", [](const Surface& s) { return s.grid.ny; }, "Points along y.");
   property("size_x", [](const Surface& s) { return s.grid.lx; }, "Size along x, m.");
   property("size_y", [](const Surface& s) { return s.grid.ly; }, "Size along y, m.");
-  property("area", [](const Surface& s) { return s.grid.area(); }, "Nominal area, m².");
+  described_property(
+      surface, [](const BoundSurface& self) { return self.surface.grid.area(); },
+      Kept{"area", "nominal area", Dimension::length_squared});
+  described_property(
+      surface,
+      [](const BoundSurface& self) -> std::optional<std::array<double, 4>> {
+        const auto part = unlocked([&] { return max_defined_part(self.surface); });
+        if (!part) return {};
+        return std::array{part->x0, part->y0, part->x1, part->y1};
+      },
+      Kept{"max_defined_part",
+           "x0, y0, x1, y1 of the largest rectangle without undefined points, for :meth:`cropped`; "
+           "None if no point is defined",
+           Dimension::length});
   property(
       "periodic", [](const Surface& s) { return s.periodic; },
       "Whether the surface repeats itself.");
@@ -87,12 +100,13 @@ True
                                           : nb::cast(view(bound.surface.heights, self));
           },
           nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "Heights (nx, ny), m: the memory of the surface, not a copy. Of a surface that is spread "
-          "over processes: its `rows` alone.")
+          "Heights (nx, ny), m: the memory of the surface, not a copy. If the surface is "
+          "distributed over "
+          "processes: its `rows` only.")
       .def_prop_ro(
           "rows", [](const BoundSurface& self) { return range_of(self.surface.partition()); },
           nb::sig("def rows(self) -> range"),
-          "Rows ix that this process holds: all of them, unless the surface is spread over "
+          "Rows ix that this process has: all of them, unless the surface is distributed over "
           "processes.")
       .def(
           "gather",
@@ -100,18 +114,18 @@ True
             const Surface& mine = nb::cast<const BoundSurface&>(nb::handle(self)).surface;
             return gather(self, root, mine.communicator, [&] {
               return std::make_unique<BoundSurface>(unlocked([&] {
-                return Surface{mine.grid, gathered(mine.partition(), mine.heights, root), mine.periodic,
-                               mine.origin};
+                return Surface{mine.grid, gathered(mine.partition(), mine.heights, root),
+                               mine.periodic, mine.origin};
               }));
             });
           },
           nb::arg("root") = 0, nb::sig("def gather(self, root: int = 0) -> Surface | None"),
-          R"(The whole surface in one process, None in the others. All processes that hold rows of it make this call.
+          R"(The whole surface in one process, None in the others. All processes of the surface must call this method.
 
 Parameters
 ----------
 root : int
-    The process, counted from 0. A surface that one process holds is returned as it is.
+    The process, counted from 0. A surface of a single process is returned as it is.
 )")
       .def(
           "__array__",
@@ -124,21 +138,22 @@ root : int
           nb::arg("dtype") = nb::none(), nb::arg("copy") = nb::none(),
           nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
                   "numpy.typing.NDArray[typing.Any]"),
-          "numpy.asarray(surface) is its heights.")
+          "numpy.asarray(surface) returns the heights.")
       .def("detrended", &detrended_surface, nb::arg("method") = "plane",
-           R"(The surface less its trend.
+           R"(Subtracts the trend of the surface.
 
 Parameters
 ----------
 method : {"plane", "mean", "quadratic", "lines", "median_differences", "none"}
-    What is subtracted: the least-squares plane a + b·x + c·y, the mean, the least-squares paraboloid, of each scan line (along x) its
-    least-squares straight line, of each scan line its offset by the median of its differences from the line before and then the plane,
-    nothing. Both ways of flattening lines change statistics along y, and leave a seam between the first and the last line.
+    "plane": subtract the least-squares plane a + b·x + c·y; "mean": the mean; "quadratic": the least-squares paraboloid; "lines": the
+    least-squares straight line of each scan line (along x); "median_differences": the median difference of each scan line to the previous
+    line, and then the plane; "none": nothing. Both line corrections change statistics along y and leave a seam between the first and the
+    last line.
 
 Returns
 -------
 Surface
-    A new surface; undefined points stay undefined and take no part.
+    A new surface. Undefined points stay undefined and do not count.
 )")
       .def(
           "filled",
@@ -147,7 +162,7 @@ Surface
           },
           R"(The surface with its undefined points filled by the smoothest heights that fit (discrete Laplace equation).
 
-What is filled has no summits and takes power from short waves, so count `undefined_points` first.
+Filled points have no summits and reduce the power of short waves, so check `undefined_points` first.
 )")
       .def(
           "despiked",
@@ -156,13 +171,13 @@ What is filled has no summits and takes power from short waves, so count `undefi
                 unlocked([&] { return despiked(Surface(self.surface), threshold); }));
           },
           nb::arg("threshold") = 6.0,
-          R"(The surface with its spikes undefined: dust, and mistakes of the instrument.
+          R"(Makes spikes undefined: dust, and errors of the instrument.
 
 Parameters
 ----------
 threshold : float
-    In robust standard deviations: of the neighbours of a point about their median, and at least of all points about the median of
-    their neighbours. Points beyond it are spikes where four at most lie beside each other; steps, scratches and summits remain.
+    In robust standard deviations of the neighbours of a point about their median, but at least those of all points about the median of
+    their neighbours. Points beyond the threshold are spikes if at most four are adjacent; steps, scratches and summits remain.
 )")
       .def(
           "cropped",
@@ -171,17 +186,8 @@ threshold : float
                 unlocked([&] { return cropped(self.surface, Rectangle{x0, y0, x1, y1}); }));
           },
           nb::arg("x0"), nb::arg("y0"), nb::arg("x1"), nb::arg("y1"),
-          "The part between two corners, m, moved to the nearest borders of cells. It is not "
+          "The part between two corners, m, which move to the nearest borders of cells. It is not "
           "periodic.")
-      .def_prop_ro(
-          "max_defined_part",
-          [](const BoundSurface& self) -> std::optional<std::array<double, 4>> {
-            const auto part = unlocked([&] { return max_defined_part(self.surface); });
-            if (!part) return {};
-            return std::array{part->x0, part->y0, part->x1, part->y1};
-          },
-          "x0, y0, x1, y1 of the largest rectangle without undefined points, m, for "
-          ":meth:`cropped`; None where no point is defined.")
       .def(
           "with_periodic",
           [](const BoundSurface& self, bool periodic) {
@@ -190,12 +196,13 @@ threshold : float
             return new_surface(std::move(copy));
           },
           nb::arg("periodic") = true,
-          "A copy that counts as periodic, or not: boundary elements with periodic boundaries "
-          "continue it either way.")
+          "A copy that is marked as periodic or not. Boundary elements with periodic boundaries "
+          "continue "
+          "either periodically.")
       .def_prop_ro(
           "height_statistics",
           [](const BoundSurface& self) {
-            // A table of one process in a notebook must not wait for the others.
+            // The table that a notebook shows in one process must not wait for the other processes.
             require_whole(self, "its property height_statistics");
             return unlocked([&] { return height_statistics(self.surface); });
           },
@@ -206,7 +213,7 @@ threshold : float
             require_whole(self, "its property moments");
             return unlocked([&] { return surface_moments(self.surface); });
           },
-          "Spectral moments of a periodic surface, those of finite differences of any other, see "
+          "Spectral moments of a periodic surface, moments by finite differences of any other, see "
           ":func:`surface_moments`.")
       .def_static(
           "from_topography",
@@ -247,8 +254,8 @@ void bind_height_statistics(nb::module_& m) {
       "Moments of the height distribution over all defined points; no filter is applied. Skewness "
       "and kurtosis of a flat surface are NaN.");
   m.def("height_statistics", &of_surface<height_statistics>, nb::arg("surface"),
-        "Moments of the heights; undefined points take no part. Of a surface that is spread over "
-        "processes all of them make this call. Cost: two passes.");
+        "Moments of the heights, without undefined points. If the surface is distributed over "
+        "processes, all of them make this call. Cost: two passes.");
   m.def("spectral_moments", &of_surface<spectral_moments>, nb::arg("surface"),
         R"(Moments of a periodic surface from its spectrum: those of its trigonometric interpolant.
 
@@ -262,8 +269,8 @@ InvalidInput
   m.def("difference_moments", &of_surface<difference_moments>, nb::arg("surface"),
         R"(Moments by finite differences of neighbouring points, for measured surfaces.
 
-Where the surface has structure at the scale of the grid they are smaller than the spectral moments: a mode of wave number q
-counts with (2 sin(q dx/2)/dx)² in position of q².
+If the surface has structure at the scale of the grid, these moments are smaller than the spectral moments: a mode of wave number q
+counts as (2 sin(q dx/2)/dx)² instead of q².
 )");
   m.def("surface_moments", &of_surface<surface_moments>, nb::arg("surface"),
         ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
@@ -272,21 +279,21 @@ counts with (2 sin(q dx/2)/dx)² in position of q².
       [](const BoundSurface& surface) {
         return unlocked([&] { return warning_of_heights(surface.surface); });
       },
-      nb::arg("surface"), "What is most likely a mistake in the unit of the heights, or None.");
+      nb::arg("surface"), "Warning about a probable mistake in the unit of the heights, or None.");
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",
-        "The surface less its trend, see :meth:`Surface.detrended`.");
+        "Subtracts the trend of a surface, see :meth:`Surface.detrended`.");
   m.def(
       "default_detrend",
       [](const BoundSurface& surface) {
         return std::string(name_of(default_detrend(surface.surface)));
       },
       nb::arg("surface"),
-      "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "
-      "periodic one.");
+      "\"plane\" for a measured surface, which has the tilt of its stage; \"mean\" for a periodic "
+      "surface.");
 }
 
 void bind_summits(nb::module_& m) {
-  described_class<Summit>(m, "Summit", "A local maximum and the paraboloid that osculates it.");
+  described_class<Summit>(m, "Summit", "A local maximum and its osculating paraboloid.");
 
   described_class<SummitList>(m, "SummitList", "The summits of a surface; its columns are views.")
       .def("__len__", [](const SummitList& self) { return self.summits.size(); })
@@ -300,16 +307,16 @@ void bind_summits(nb::module_& m) {
           },
           nb::arg("index"));
 
-  described_class<SummitStatistics>(
-      m, "SummitStatistics",
-      "An ensemble of summits as the Greenwood–Williamson theory uses it; heights are from the "
-      "zero of those of the surface.");
+  described_class<SummitStatistics>(m, "SummitStatistics",
+                                    "Statistics of summits for the Greenwood–Williamson theory; "
+                                    "heights have the zero of the heights "
+                                    "of the surface.");
   m.def(
       "find_summits", &of_surface<find_summits>, nb::arg("surface"),
-      R"(Every point that is higher than its eight neighbours, with the least-squares paraboloid through the 3 × 3 points.
+      R"(Finds every point that is higher than its eight neighbours, with the least-squares paraboloid through the 3 × 3 points.
 
-Neighbours wrap where the surface is periodic; elsewhere the border is not searched, nor are points beside undefined ones.
-Of a surface that is spread over processes each gets the summits of its rows; :func:`summit_statistics` are those of all.
+Neighbours wrap on periodic surfaces. On other surfaces the border is not searched, nor are points next to undefined points.
+If the surface is distributed over processes, each gets the summits of its rows; :func:`summit_statistics` uses the summits of all.
 )");
   m.def(
       "summit_statistics", [](const SummitList& summits) { return summit_statistics(summits); },
@@ -322,7 +329,7 @@ Of a surface that is spread over processes each gets the summits of its rows; :f
         return unlocked([&] { return significant_peaks(surface.surface, min_prominence); });
       },
       nb::arg("surface"), nb::arg("min_prominence"),
-      "Peaks that stand at least `min_prominence` (m) above the saddle to a higher one: Wolf's "
+      "Peaks at least `min_prominence` (m) above the saddle to a higher peak: Wolf's "
       "pruning of ISO 25178-2.");
 }
 
@@ -333,9 +340,9 @@ void bind_areal_parameters(nb::module_& m) {
   m.def("areal_parameters",
         &of_surface<[](const Surface& surface) { return areal_parameters(surface); }>,
         nb::arg("surface"),
-        "ISO 25178-2 parameters of the surface as it is given: form is removed by "
-        ":meth:`Surface.detrended` alone, no S- or "
-        "L-filter is applied.");
+        "ISO 25178-2 parameters of the surface as it is. Remove form by :meth:`Surface.detrended`; "
+        "no "
+        "S- or L-filter is applied.");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@
 namespace salebra::python {
 namespace {
 
-/// The losses of a solution, whose assumptions are known.
+/// The losses of a solution over the pressure, with their assumptions.
 BoundDampingCurve curve_of(const DampingSolution& solution, const std::vector<double>& pressures) {
   BoundDampingCurve curve{"pressure", pressures, {}};
   for (std::size_t i = 0; i < solution.results.size(); ++i)
@@ -31,7 +31,7 @@ BoundDampingCurve curve_of(const DampingSolution& solution, const std::vector<do
   return curve;
 }
 
-/// The losses at the loads of a curve, without assumptions.
+/// The losses at the loads of a curve over the pressure, without assumptions.
 BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const ForceCurve& loads,
                            const Oscillation& motion) {
   BoundDampingCurve curve{"pressure", loads.column(&ForceSample::pressure), {}};
@@ -66,8 +66,14 @@ void bind_surface_damping(nb::module_& m) {
         cite({"popov2015"});
         require_one(curve != nullptr, "curve", pressures.has_value(), "pressures");
         ContactParameters all = known(parameters);
-        if (!std::isnan(friction_coefficient)) all.friction_coefficient = friction_coefficient;
-        if (!std::isnan(excursion)) all.excursion = excursion;
+        const auto take = [](double& parameter, double given, const char* name) {
+          if (std::isnan(given)) return;
+          require(std::isnan(parameter) || parameter == given, name, given,
+                  "differs from that of `parameters`; give one of them");
+          parameter = given;
+        };
+        take(all.friction_coefficient, friction_coefficient, "friction_coefficient");
+        take(all.excursion, excursion, "excursion");
         const Motion described = motion_of(oscillation(motion));
         warn_of_unknown(described, &all);
         SurfaceDampingOptions options{.hold = hold.value("hold"),
@@ -116,10 +122,10 @@ void bind_surface_damping(nb::module_& m) {
       nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
       nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = Loss::unknown,
       nb::arg("excursion") = Loss::unknown, nb::arg("progress") = false,
-      R"(Damping of one surface at each pressure, from contacts inside the oscillation, with its error.
+      R"(Damping of one surface at each pressure, from contacts within the oscillation, with its error.
 
-Nothing is interpolated between loads. The cells are halved once, which gives their error; relative_error > 0 halves them further
-where the error is above this part of W. A surface that is spread over processes is refined whole by the first of them.
+Nothing is interpolated between loads. Cells are halved once to estimate their error; with relative_error > 0 they are halved further
+while the error is above this fraction of W. If the surface is distributed over processes, the first process refines it.
 
 Parameters
 ----------
@@ -127,25 +133,25 @@ surface : Surface
 material : Material
 motion : EqualFrequency or Drag
 curve : ForceCurve, optional
-    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer, whose assumptions are not judged. Where it
-    has K_t of stick solves, so have the contacts.
+    Curve of this surface and material by sweep_pressures(), whose loads are used. Assumptions are then not judged. If the curve has K_t of
+    stick solves, the contacts have it too.
 pressures : float or array, optional
-    Nominal pressures, Pa, in index of a curve: one is swept about each.
+    Nominal pressures, Pa, instead of a curve; a curve is then swept about each.
 parameters : ContactParameters, optional
-    Friction, hardness, density and the like: a coefficient of friction makes the loss one with slip, a hardness loads the surface
-    plastically first, and the assumptions are judged by all.
+    Friction, hardness, density and the like. With a coefficient of friction the loss includes slip; with a hardness the surface is first
+    loaded plastically; all of them are used to judge the assumptions.
 hold : {"indentation", "force"}
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
-    That of the curve; pressures are swept with "periodic".
+    Boundary of the curve; `pressures` use "periodic".
 relative_error : float
-    0, or the part of W that the error is to be below.
+    Goal for the error as a fraction of W; 0: none.
 seam : {"window", "free"}, optional
-    Solves once more without the seam of a surface that is not periodic, and counts the change as an error.
+    Solve once more without the seam of a surface that is not periodic, and count the change as an error.
 friction_coefficient : float
-    As that of `parameters`; NaN: infinite, no slip.
+    As in `parameters`; NaN: infinite, no slip.
 excursion : float
-    Between the turning points of a Drag, m, as that of `parameters`; with friction a Drag needs it.
+    Distance between the turning points of a Drag, m, as in `parameters`; required for a Drag with friction.
 
 Returns
 -------

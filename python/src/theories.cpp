@@ -26,7 +26,8 @@ void bind_theories(nb::module_& m) {
       nb::arg("mean_gap"), nb::arg("rms_height"),
       nb::sig("def bearing_area_fraction(mean_gap: numpy.typing.ArrayLike, rms_height: float) -> "
               "typing.Any"),
-      "Fraction of a Gaussian surface above a plane, ½ erfc(ū/(√2 h_rms)): geometry alone. Lengths "
+      "Fraction of a Gaussian surface above a plane, ½ erfc(ū/(√2 h_rms)), without deformation. "
+      "Lengths "
       "in m.");
   m.def(
       "bgt_area_fraction",
@@ -54,7 +55,8 @@ void bind_theories(nb::module_& m) {
       nb::sig(
           "def persson_area_fraction(pressure: numpy.typing.ArrayLike, material: Material | float, "
           "rms_slope: float) -> typing.Any"),
-      "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures "
+      "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), with slope √(8/π) at small "
+      "pressures "
       "(Pa).");
 
   described_class<RoughnessShell>(m, "RoughnessShell", "A narrow ring of a spectrum.")
@@ -71,7 +73,8 @@ void bind_theories(nb::module_& m) {
                                 highest, count);
       },
       nb::arg("spectrum"), nb::arg("lowest"), nb::arg("highest"), nb::arg("count") = 1000,
-      "`count` shells of equal ratio of an isotropic spectrum between two wave numbers, rad/m.");
+      "Divides an isotropic spectrum between two wave numbers, rad/m, into `count` shells of equal "
+      "ratio.");
 
   described_class<PerssonTheory::Asymptote>(
       m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.");
@@ -86,7 +89,7 @@ Parameters
 ----------
 shells : list of RoughnessShell
 material : Material or float
-    Or E* alone, Pa.
+    A number is E*, Pa.
 energy_factor : float
     γ in (0, 1]: 0.4 to 0.5 agrees with simulations.
 )");
@@ -102,7 +105,7 @@ energy_factor : float
           nb::arg("shells"), nb::arg("material"),
           nb::arg("energy_factor") = PerssonTheory::usual_energy_factor)
       .def_prop_ro("asymptote", &PerssonTheory::asymptote, "The limit of small pressures.")
-      .def_prop_ro("rms_height", &PerssonTheory::rms_height, "m")
+      .def_prop_ro("rms_height", &PerssonTheory::rms_height, "Rms height, m.")
       .def_prop_ro("rms_slope", &PerssonTheory::rms_slope);
   number_method(persson, "mean_gap", "pressure", &PerssonTheory::mean_gap, "ū, m.");
   number_method(persson, "stiffness_per_area", "pressure", &PerssonTheory::stiffness_per_area,
@@ -118,7 +121,7 @@ energy_factor : float
         return persson_curve(theory, material, nominal_area, pressures.values);
       },
       nb::arg("theory"), nb::arg("material"), nb::arg("nominal_area"), nb::arg("pressures"),
-      "Samples at the given pressures (> 0, Pa), lowest first; K_t = (G*/E*)K where G* is known. "
+      "Force curve at the given pressures (> 0, Pa), lowest first; K_t = (G*/E*)K if G* is known. "
       "nominal_area in m².");
 }
 

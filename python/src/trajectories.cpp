@@ -24,9 +24,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 void bind_tangential_contact(nb::module_& m) {
-  nb::class_<TangentialContact>(
+  nb::class_<TangentialContact> contact(
       m, "TangentialContact",
-      R"(The tangential state of any contact with nested contact sets, along any path.
+      R"(Tangential state of a contact with nested contact sets, along any path.
 
 .. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
 
@@ -41,12 +41,13 @@ lowest, highest : float
 friction_coefficient : float
     μ >= 0; infinite: full stick, the case of the paper.
 merge_tolerance : float
-    How far the stored history may deviate from the motion, m; 0 keeps all of it.
+    Maximum deviation of the stored history from the motion, m; 0 keeps all history.
 table_tolerance : float
-    Relative, of the table of K_t that stands for the law.
+    Relative tolerance of the table of K_t that replaces the law.
 tangential_range : float
-    Largest distance of two positions x of the motion, m; > 0 where friction is finite and > 0.
-)")
+    Maximum distance between two positions x of the motion, m; > 0 if friction is finite and > 0.
+)");
+  contact
       .def(
           "__init__",
           [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
@@ -62,48 +63,51 @@ tangential_range : float
           nb::keep_alive<1, 2>())
       .def(
           "copy", [](const TangentialContact& self) { return TangentialContact(self); },
-          "A state to come back to. Copies share the table of K_t.")
+          "A copy, to return to this state later. Copies share the table of K_t.")
       .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
-           "Puts the indenter down, all springs free of stress; sets the energies to 0.")
+           "Starts at a position with all springs free of stress and the energies 0.")
       .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
            "Moves on a straight line in (δ, x), m.")
       .def("move_to_force", &TangentialContact::move_to_force, nb::arg("indentation"),
            nb::arg("force"), "Moves on a straight line to where F_x is `force`, N.")
       .def("slide", &TangentialContact::slide, nb::arg("indentation"), nb::arg("x"),
            nb::arg("direction"),
-           "The state after endless sliding towards +x (direction 1) or −x (−1); sets losses and "
-           "work to 0.")
-      .def_prop_ro("displacement", &TangentialContact::displacement, "x, m.")
-      .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
-      .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
-      .def_prop_ro("dissipated", &TangentialContact::dissipated,
-                   "Lost since start() or slide(), J.")
-      .def_prop_ro("dissipated_in_permanent_contact",
-                   &TangentialContact::dissipated_in_permanent_contact,
-                   "Of it, by slip of levels that never leave contact, J.")
-      .def_prop_ro("external_work", &TangentialContact::external_work,
-                   "∫F_x dx since start() or slide(), J.")
-      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
-                   "K_t at `lowest`, N/m.")
-      .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
+           "Sets the state after endless sliding towards +x (direction 1) or −x (−1), with losses "
+           "and work "
+           "0.")
+      .def_prop_ro("memory", &TangentialContact::memory, "Number of pieces of history now held.");
+  using enum Dimension;
+  using T = TangentialContact;
+  const auto property = [&contact](auto member, const Kept& line) {
+    described_property(contact, member, line);
+  };
+  property(&T::displacement, {"displacement", "displacement x", length});
+  property(&T::tangential_force, {"tangential_force", "tangential force F_x", force});
+  property(&T::stored_energy, {"stored_energy", "elastic energy of the springs", energy});
+  property(&T::dissipated, {"dissipated", "energy lost since start() or slide()", energy});
+  property(&T::dissipated_in_permanent_contact,
+           {"dissipated_in_permanent_contact",
+            "part of `dissipated` by slip of springs that never leave contact", energy});
+  property(&T::external_work, {"external_work", "∫F_x dx since start() or slide()", energy});
+  property(&T::permanent_stiffness, {"permanent_stiffness", "K_t at `lowest`", stiffness});
 }
 
 void bind_contact_element(nb::module_& m) {
-  nb::class_<LawSprings>(
+  nb::class_<LawSprings> law_levels(
       m, "LawSprings",
-      R"(A contact law as springs of springs with friction, shared by contact elements.
+      R"(A contact law as springs with friction limits, which contact elements share.
 
 Parameters
 ----------
 law : ContactLaw
 lowest, highest : float
-    Indentations between which contacts will move with the accuracy asked for, m. Below, springs are
-    coarser; above, the force goes on along its tangent.
+    Indentations, m, between which the springs are accurate. Below, springs are coarser; above, the force continues along its tangent.
 friction_coefficient : float
     μ >= 0; infinite: full stick.
 springs : int
     8 … 4096; half of them lie between lowest and highest, half below.
-)")
+)");
+  law_levels
       .def(
           "__init__",
           [](LawSprings* self, const ContactLaw& law, double lowest, double highest,
@@ -111,53 +115,58 @@ springs : int
             new (self) LawSprings(law, lowest, highest, {friction_coefficient, springs});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction_coefficient") = infinite, nb::arg("intervals") = LawSpringsOptions().springs)
+          nb::arg("friction_coefficient") = infinite,
+          nb::arg("springs") = LawSpringsOptions().springs)
       .def("__len__", &LawSprings::size)
-      .def_prop_ro("friction_coefficient", &LawSprings::friction_coefficient, "μ")
-      .def_prop_ro(
-          "nodes", [](const LawSprings& self) { return array_of(self.nodes()); },
-          nb::rv_policy::automatic, "Indentations at which levels end, m.");
+      .def_prop_ro("friction_coefficient", &LawSprings::friction_coefficient, "μ");
+  described_property(law_levels, &LawSprings::nodes,
+                     Kept{"nodes", "indentations at which springs end", Dimension::length});
 
-  nb::class_<ElementForces>(m, "ElementForces", "What a contact element answers to a step.")
-      .def_ro("normal_force", &ElementForces::normal_force, "F, N.")
-      .def_ro("tangential_force", &ElementForces::tangential_force,
-              "F_x and F_y, N: what holds the displaced body.")
-      .def_ro("stiffness", &ElementForces::stiffness,
-              "Derivatives of F, F_x, F_y, by rows, over indentation, x and y, N/m.");
+  nb::class_<ElementForces> forces(m, "ElementForces",
+                                   "Forces and stiffnesses of a contact element after a step.");
+  described_property(forces, &ElementForces::normal_force,
+                     Kept{"normal_force", "normal force F", Dimension::force});
+  described_property(
+      forces, &ElementForces::tangential_force,
+      Kept{"tangential_force", "F_x and F_y, which hold the displaced body", Dimension::force});
+  described_property(
+      forces, &ElementForces::stiffness,
+      Kept{"stiffness", "derivatives of F, F_x, F_y (rows) by indentation, x and y (columns)",
+           Dimension::stiffness});
 
-  nb::class_<ContactElement>(
+  nb::class_<ContactElement> element(
       m, "ContactElement",
       R"(A contact as an element of another program, with both tangential directions.
 
-Springs are anchored where they touch, let go where they part, and slip along their own stretch; all of them
-slip at a tangential force of μF. A copy is a state to come back to, and copies share their springs.
+Springs are anchored where they touch, are released where they separate, and slip in the direction of their stretch; all of them slip at a
+tangential force of μF. A copy keeps a state to return to; copies share their springs.
 
 Parameters
 ----------
 springs : LawSprings
-)")
-      .def(nb::init<std::shared_ptr<const LawSprings>>(), nb::arg("intervals"))
+)");
+  described_property(
+      element, [](const ContactElement& self) { return std::vector(self.state()); },
+      Kept{"state", "a copy, for restart files, of the position and the anchor of each spring",
+           Dimension::length});
+  element.def(nb::init<std::shared_ptr<const LawSprings>>(), nb::arg("springs"))
       .def(
           "copy", [](const ContactElement& self) { return ContactElement(self); },
-          "A state to come back to.")
+          "A copy, to return to this state later.")
       .def("__copy__", [](const ContactElement& self) { return ContactElement(self); })
       .def(
           "__deepcopy__",
           [](const ContactElement& self, nb::handle) { return ContactElement(self); },
           nb::arg("memo"))
       .def("start", &ContactElement::start, nb::arg("indentation"), nb::arg("x") = 0.0,
-           nb::arg("y") = 0.0, "Puts the body down, all springs free of stress.")
+           nb::arg("y") = 0.0, "Starts at a position with all springs free of stress.")
       .def("forces", &ContactElement::forces, nb::arg("indentation"), nb::arg("x"),
-           nb::arg("y") = 0.0, "The forces at the end of a straight step, which is not taken.")
+           nb::arg("y") = 0.0, "Forces at the end of a straight step, without taking the step.")
       .def("move_to", &ContactElement::move_to, nb::arg("indentation"), nb::arg("x"),
            nb::arg("y") = 0.0, "Takes a straight step, and returns the forces at its end.")
-      .def_prop_ro(
-          "state", [](const ContactElement& self) { return array_of(self.state()); },
-          nb::rv_policy::automatic,
-          "A copy, for restart files, of the position and of where each level is anchored, m.")
       .def(
           "restore", [](ContactElement& self, const Values& state) { self.restore(state.values); },
-          nb::arg("state"), "Goes back to a state of an element with the same levels.");
+          nb::arg("state"), "Restores a `state` of an element with the same springs.");
 }
 
 void bind_damping_of_trajectory(nb::module_& m) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of what passes a contact: conductance, flow factors, densities of pressure and gap.
+// Bindings of conductances, flow factors, and distributions of pressure and gap.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/vector.h>
 
@@ -41,7 +41,7 @@ void bind_conductance(nb::module_& m) {
 
 .. math:: C = \frac{2K}{E^*(\rho_1+\rho_2)}
 
-Exact for every set of contact spots, which no sum over spots is. Resistivities in Ω m, one for both bodies or one for each.
+This is exact for every set of contact spots, unlike sums over spots. Resistivities in Ω m: one for both bodies or one for each.
 
 References
 ----------
@@ -55,7 +55,7 @@ Barber (2003), doi:10.1098/rspa.2002.1038.
 
 .. math:: \frac{2K}{E^*(1/\kappa_1+1/\kappa_2)}
 
-Conductivities in W/(m K), one for both bodies or one for each. Radiation and what fills the gap are left out.
+Conductivities in W/(m K): one for both bodies or one for each. Radiation and the medium in the gap are neglected.
 
 References
 ----------
@@ -65,8 +65,8 @@ Barber (2003), doi:10.1098/rspa.2002.1038.
 
 void bind_flow(nb::module_& m) {
   described_class<FlowFactors>(m, "FlowFactors",
-                               "How a viscous fluid passes a gap between rough surfaces; factors "
-                               "are NaN where nothing flows.");
+                               "Flow of a viscous fluid through a gap between rough surfaces; "
+                               "factors are NaN if nothing flows.");
   m.def(
       "flow_factors",
       [](const BoundContact& state, double tolerance, int max_iterations,
@@ -85,7 +85,7 @@ void bind_flow(nb::module_& m) {
 .. math:: \nabla\cdot(g^3\nabla p) = 0,\ \langle\nabla p\rangle = e_x, \qquad
           \phi_x = \frac{\langle g^3\,\partial p/\partial x\rangle}{\langle g\rangle^3}
 
-The mean gap is that of all cells, those in contact included.
+The mean gap is the mean over all cells, including those in contact.
 
 References
 ----------
@@ -100,8 +100,9 @@ Patir and Cheng (1978), doi:10.1115/1.3453103.
         return unlocked([&] { return contact_distributions(state, state.grid, bins); });
       },
       nb::arg("state"), nb::arg("bins") = 100,
-      "Densities of pressure (cells in contact) and of gap (the others), from 0 to the largest "
-      "value. Their integrals add up to 1.");
+      "Densities of pressure (cells in contact) and of gap (other cells), from 0 to the maximum. "
+      "Their "
+      "integrals add up to 1.");
 }
 
 }  // namespace

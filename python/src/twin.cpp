@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the surface twin: scans with their instruments, the fit, its draws; the plain average.
+// Bindings of the surface twin (scans with their instruments, the fit, the draws of its spectrum)
+// and of the plain average of scans.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -23,7 +24,8 @@
 namespace salebra::python {
 namespace {
 
-/// A twin and the scans that it is made of, so that fit() needs no argument.
+/// The Python object of a surface twin. It keeps the spectra of its scans, so that fit() needs no
+/// argument.
 struct BoundTwin : SurfaceTwin {
   std::vector<ScanSpectrum> measurements;
 };
@@ -48,13 +50,12 @@ ScanSpectrum measured_spectrum(const BoundSurface& bound, const ScanInstrument& 
 }
 
 void bind_scans(nb::module_& m) {
-  described_class<ScanInstrument>(m, "ScanInstrument",
-                                  "What a scan was made with; NaN is not known.");
+  described_class<ScanInstrument>(m, "ScanInstrument", "The instrument of a scan; NaN: not known.");
   described_class<HeightBand>(m, "HeightBand", "Heights between two neighbouring lengths.");
   described_class<ScanSpectrum>(
       m, "ScanSpectrum",
-      "All that a surface twin needs of one scan: its periodogram in bins, and what it was made "
-      "with. wavelength, rms_height, skewness and kurtosis are of the bands of its heights.");
+      "Data of one scan for a surface twin: its binned periodogram and its instrument. wavelength, "
+      "rms_height, skewness and kurtosis describe the bands of its heights.");
   m.def(
       "scan_spectrum",
       [](const BoundSurface& surface, const Choice<Instrument>& instrument, double resolution,
@@ -71,38 +72,39 @@ void bind_scans(nb::module_& m) {
       nb::arg("height_calibration") = ScanInstrument{}.height_calibration,
       nb::arg("scan_calibration") = ScanInstrument{}.scan_calibration,
       nb::arg("line_drift") = nb::none(), nb::arg("name") = "", nb::arg("weight") = 1.0,
-      R"(A scan, or a line profile, as :class:`SurfaceTwin` takes it: some hundred numbers, so that one scan is in memory at a time.
+      R"(Reduces a scan, or a line profile, to some hundred numbers for :class:`SurfaceTwin`, so that only one scan is in memory at a time.
 
 Parameters
 ----------
 surface : Surface
-    Complete; its plane is subtracted. Lines of a scanned instrument lie along x.
+    Without undefined points; its plane is subtracted. Scan lines are along x.
 instrument : {"ideal", "optical", "stylus", "afm"}
-    "ideal": heights at points, with noise.
+    "ideal": exact heights at points, with noise.
 resolution : float
-    Full width at half maximum of the blur, m; "optical" needs it, and it alone.
+    Full width at half maximum of the blur, m; for "optical", which needs no other length.
 tip_radius : float
-    m; "stylus" and "afm" need it.
+    Radius of the tip, m; for "stylus" and "afm".
 noise : float
-    rms of white noise, m; NaN: found from the spectrum.
+    Rms of white noise, m; NaN: estimated from the spectrum.
 height_calibration, scan_calibration : float
-    Relative standard error of all heights of the instrument, and of those of one scan.
+    Relative standard error common to all heights of the instrument, and that of one scan.
 line_drift : bool, optional
-    Whether lines are offset from each other; none given: of "stylus" and "afm".
+    Whether lines are offset from each other; by default for "stylus" and "afm".
 name : str
-    Scans of one name share their height calibration; without it those of the same kind, resolution and tip do.
+    Scans with the same name share their height calibration; without names, those with the same instrument, resolution and tip do.
 weight : float
-    How many scans of its kind it counts as.
+    Number of scans as which it counts.
 
 Raises
 ------
 InvalidInput
-    For undefined heights, fewer than 32 points a side (64 of a profile), sides above 4 to 1, an instrument without its length.
+    For undefined heights, fewer than 32 points a side (64 for a profile), sides above 4 to 1, or an instrument without its length.
 )");
 }
 
 void bind_fit(nb::module_& m) {
-  described_class<TwinDraw>(m, "TwinDraw", "The spectrum of one surface that the scans allow.")
+  described_class<TwinDraw>(m, "TwinDraw",
+                            "The spectrum of one surface that is compatible with the scans.")
       .def(
           "density",
           [](const TwinDraw& self, const Numbers& wavenumber) {
@@ -110,7 +112,7 @@ void bind_fit(nb::module_& m) {
           },
           nb::arg("wavenumber"),
           nb::sig("def density(self, wavenumber: numpy.typing.ArrayLike) -> typing.Any"),
-          "C, m⁴, of q > 0 in rad/m.")
+          "C, m⁴, at wave numbers > 0, rad/m.")
       .def(
           "tabulated",
           [](const TwinDraw& self, double lowest, int points_per_decade) {
@@ -118,32 +120,35 @@ void bind_fit(nb::module_& m) {
             return TabulatedSpectrum(table.wavenumber, table.psd);
           },
           nb::arg("lowest"), nb::arg("points_per_decade") = 60,
-          "The spectrum from `lowest`, rad/m, to its end, for :func:`filtered_noise` on a grid: "
-          "π/size, half of its least wave number, is low enough.");
+          "The spectrum from `lowest`, rad/m, to its end, for :func:`filtered_noise` on a grid. "
+          "π/size, "
+          "half of the smallest wave number of the grid, is low enough.");
   described_class<TwinParameter>(
       m, "TwinParameter",
-      "What is known of one quantity: value, low, high (95 %) and whether the scans decide on it; "
-      "a wavelength that they do not has one limit alone, the others being NaN.")
+      "Estimate of one quantity: value, low, high (95 %), and whether the scans determine it "
+      "(`seen`). "
+      "A wavelength that they do not determine has only one limit; the other numbers are NaN.")
       .def("__repr__", [](const TwinParameter& self) {
         return fmt::format("TwinParameter(value={:.4g}, low={:.4g}, high={:.4g}, seen={})",
                            self.value, self.low, self.high, self.seen ? "True" : "False");
       });
   described_class<TwinSpectrum>(m, "TwinSpectrum", "The spectrum with its 95 % band.");
-  described_class<TwinGroup>(m, "TwinGroup",
-                             "Scans of one instrument, size and grid, and what was used of them.");
-  described_class<TwinScan>(m, "TwinScan", "One scan against the fit.");
+  described_class<TwinGroup>(
+      m, "TwinGroup",
+      "Scans with one instrument, size and grid, and the range of them that was used.");
+  described_class<TwinScan>(m, "TwinScan", "One scan compared with the fit.");
   described_class<TwinWithout>(m, "TwinWithout", "The fit without one instrument.");
   described_class<BoundTwin>(
       m, "SurfaceTwin",
-      R"(One isotropic surface that several scans by several instruments are pieces of.
+      R"(One isotropic surface estimated from several scans by several instruments.
 
-``SurfaceTwin(measurements).fit()`` is the twin that `salebra twin` finds, with the same names; before fit() its numbers are NaN.
+``SurfaceTwin(measurements).fit()`` does the same as `salebra twin`, with the same names; before fit() the numbers are NaN.
 
 Parameters
 ----------
 measurements : list of ScanSpectrum, str or os.PathLike
-    Of :func:`scan_spectrum`; or a TOML file of tables [[measurement]] as `salebra twin init` writes it, whose scans are read now, one
-    after the other.
+    Results of :func:`scan_spectrum`; or a TOML file of tables [[measurement]], as `salebra twin init` writes it, whose scans are read at
+    once, one after the other.
 )")
       .def(
           "__init__",
@@ -183,36 +188,36 @@ measurements : list of ScanSpectrum, str or os.PathLike
               "def fit(self, *, seed: int = 1, draws: int = 1000, form: typing.Literal['corner', "
               "'smooth', 'table'] | None = None, drop_bad_scans: bool = True, leave_one_out: bool "
               "= True) -> SurfaceTwin"),
-          R"(Finds the twin of these scans, with joint 95 % limits of its parameters. Returns the object itself, whose numbers it now has.
+          R"(Fits the twin to its scans, with joint 95 % limits of the parameters, and returns the same object.
 
 Parameters
 ----------
 seed : int
-    Of the draws.
+    Seed of the draws.
 draws : int
-    How many are kept, >= 100.
+    Number of draws to keep, >= 100.
 form : {"corner", "smooth", "table"}, optional
     How the spectrum falls from its plateau; none given: by likelihood.
 drop_bad_scans : bool
-    Leave out a scan far from the fit of all; `warnings` names it.
+    Leave out a scan that is far from the fit of all; `warnings` names it.
 leave_one_out : bool
     Fit once more without each instrument, as a check, into `without`.
 
 Raises
 ------
 InvalidInput
-    For no scan, or fewer than 8 usable bins.
+    Without scans, or with fewer than 8 usable bins.
 )")
       .def(
           "draw", [](const BoundTwin& self, std::uint64_t seed) { return self.draw(seed); },
-          nb::arg("seed"), "One of `draws`, chosen by the seed: the parameters of one surface.")
+          nb::arg("seed"), "One of `draws`, selected by the seed: the parameters of one surface.")
       .def(
           "write",
           [](const BoundTwin& self, const std::filesystem::path& file, bool overwrite) {
             unlocked([&] { write_twin(file, self, {}, {overwrite}); });
           },
           nb::arg("file"), nb::kw_only(), nb::arg("overwrite") = false,
-          "Writes the HDF5 file that a study takes: `[surface] twin`.")
+          "Writes the HDF5 file for `[surface] twin` of a study.")
       .def("__repr__", [](const BoundTwin& self) {
         if (self.draws.empty())
           return fmt::format("SurfaceTwin({} scans, not fitted)", self.measurements.size());
@@ -222,9 +227,10 @@ InvalidInput
 }
 
 void bind_average(nb::module_& m) {
-  described_class<PlainSpectrum>(m, "PlainSpectrum",
-                                 "Spectrum of the profiles of one scan, or its plain mean over "
-                                 "several, in ten bins a decade.");
+  described_class<PlainSpectrum>(
+      m, "PlainSpectrum",
+      "Spectrum of the profiles of one scan, or its unweighted mean over "
+      "several scans, in ten bins per decade.");
   m.def(
       "plain_spectrum",
       [](const BoundSurface& surface) {
@@ -233,13 +239,13 @@ void bind_average(nb::module_& m) {
             [&] { return plain_spectrum(surface.surface.heights, surface.surface.grid); });
       },
       nb::arg("surface"),
-      "C₁ of the profiles along x under Hann's window, as SurfaceTopography bins it, whose C is "
+      "C₁ of the profiles along x with a Hann window, in the bins of SurfaceTopography, whose C is "
       "2πC₁. No plane is subtracted.");
-  m.def("plain_average", &plain_average, nb::arg("scans"),
-        "In each bin the mean over scans of :func:`plain_spectrum`, without instruments, weights "
-        "or "
-        "variance: a comparison for :class:`SurfaceTwin`, which knows that a tip or a lens takes "
-        "power away.");
+  m.def(
+      "plain_average", &plain_average, nb::arg("scans"),
+      "Mean of :func:`plain_spectrum` over scans in each bin, without instruments, weights or "
+      "variance. For comparison with :class:`SurfaceTwin`, which corrects for the power that a tip "
+      "or a lens removes.");
 }
 
 }  // namespace

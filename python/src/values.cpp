@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pickle, copies and == of grids and surfaces, pictures and tables of results, and the door through
-// which salebra._calls sees constructors.
+// Pickle, copies and == of grids and surfaces; pictures and tables of results; and the function by
+// which salebra._calls replaces constructors.
 #include "interop/values.hpp"
 
 #include <nanobind/stl/string.h>
@@ -23,6 +23,7 @@
 #include <salebra/surface/scale_dependence.hpp>
 
 #include "bindings.hpp"
+#include "interop/curves.hpp"
 #include "interop/damping.hpp"
 #include "interop/surface.hpp"
 #include "surface/psd_convention.hpp"
@@ -44,7 +45,7 @@ std::string_view unpickled(const nb::tuple& state) {
 
 namespace {
 
-// Pictures, by salebra._plots.
+// Defines the method plot(), which calls salebra._plots, for these classes.
 template <class... Bound>
 void drawn_classes() {
   const auto define = []<class T>(std::type_identity<T>) {
@@ -54,7 +55,8 @@ void drawn_classes() {
   (define(std::type_identity<Bound>{}), ...);
 }
 
-// Tables: what has columns of one length is a list of its rows too, by salebra._show.
+// Lets classes whose columns have one length behave as tables and as sequences of rows, by
+// salebra._show.
 template <class... Bound>
 void table_classes() {
   const auto define = []<class T>(std::type_identity<T>) {
@@ -66,7 +68,7 @@ void table_classes() {
     };
     bound.def("to_dataframe", ask("to_dataframe"),
               nb::sig("def to_dataframe(self) -> pandas.DataFrame"),
-              "The columns as a pandas.DataFrame in SI units, which its `attrs[\"units\"]` names. "
+              "The columns as a pandas.DataFrame in SI units, listed in its `attrs[\"units\"]`. "
               "Needs pandas.");
     if (!nb::hasattr(bound, "__len__"))
       bound.def("__len__", ask("length"), nb::sig("def __len__(self) -> int"));
@@ -96,12 +98,14 @@ void bind_values(nb::module_& m) {
   table_classes<ForceCurve, LocalDecayLength, ContactSpots, SummitList, RadialSpectrum, ProfilePsd,
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
                 MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion,
-                SliderMotion, BoundDampingCurve>();
+                SliderMotion, BoundDampingCurve, CurveOf<EnsembleMean>, CurveOf<StatedMean>,
+                CurveOf<DampingPoint>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
 
   m.def(
       "_answer_constructor",
       [](nb::handle type, const std::string& name) {
-        // The function is looked up at each call: one held here would outlive the interpreter.
+        // The Python function is looked up at each call: if it were kept here, it would outlive the
+        // interpreter.
         nb::delattr(type, "__init__");
         nb::cpp_function_def(
             [name](nb::handle self, const nb::args& arguments, const nb::kwargs& keywords) {

@@ -35,7 +35,7 @@ Parameters
 relaxed_modulus : float
     G∞, Pa.
 terms : list of (float, float)
-    G_i, Pa, and τ_i, s; one is the standard linear solid.
+    G_i, Pa, and τ_i, s; one term is the standard linear solid.
 )");
   bound
       .def(
@@ -54,7 +54,7 @@ terms : list of (float, float)
             return series;
           },
           nb::arg("relaxed"), nb::arg("terms"),
-          "With the G∞ of a Material: one body in its relaxed state against a rigid one.")
+          "The series with the G∞ of a Material: one relaxed elastic body against a rigid body.")
       .def_ro("relaxed_modulus", &PronySeries::relaxed_modulus, "G∞, Pa.")
       .def_prop_ro("unrelaxed_modulus", &PronySeries::unrelaxed_modulus, "G(0), Pa.")
       .def_prop_ro(
@@ -74,7 +74,7 @@ terms : list of (float, float)
 void bind_indentation(nb::module_& m) {
   described_class<ViscoelasticIndentation>(
       m, "ViscoelasticIndentation",
-      "An indenter on a viscoelastic body along a path, and the springs at its end.");
+      "Force of an indenter on a viscoelastic body along a path, and its springs at the end.");
   m.def(
       "viscoelastic_indentation",
       [](const IndenterLaw& law, const PronySeries& prony, const Values& time,
@@ -86,25 +86,25 @@ void bind_indentation(nb::module_& m) {
       },
       nb::arg("law"), nb::arg("prony"), nb::arg("time"), nb::arg("indentation"), nb::kw_only(),
       nb::arg("springs") = 400,
-      R"(Normal force and contact radius of an indenter on a body that was never touched, along δ(t).
+      R"(Normal force and contact radius of an indenter along δ(t), on a viscoelastic body without previous contact.
 
-Straight between the samples; the contact may grow, recede and be made again.
+δ is linear between the samples; the contact may grow, shrink, open and close again.
 
 Parameters
 ----------
 law : IndenterLaw
-    Of the relaxed body.
+    Law of the relaxed body.
 prony : PronySeries
 time, indentation : array_like
     s and m, from first touch.
 springs : int
-    Over the largest contact radius; second order.
+    Number of springs over the maximum contact radius; the error is of second order.
 )");
 }
 
 void bind_damping_of_period(nb::module_& m) {
-  described_class<ViscoelasticDamping>(
-      m, "ViscoelasticDamping", "What a viscoelastic contact that sticks loses in a period.");
+  described_class<ViscoelasticDamping>(m, "ViscoelasticDamping",
+                                       "Losses of a sticking viscoelastic contact in a period.");
   m.def(
       "viscoelastic_damping",
       [](const IndenterLaw& law, const PronySeries& prony, const SampledMotion& trajectory,
@@ -119,12 +119,12 @@ void bind_damping_of_period(nb::module_& m) {
 Parameters
 ----------
 law : IndenterLaw
-    Of the relaxed body.
+    Law of the relaxed body.
 prony : PronySeries
 trajectory : SampledMotion
-    One period, as of `sample()`.
+    One period, such as a result of `sample()`.
 springs : int
-    In the ring that opens and closes; second order.
+    Number of springs in the ring that opens and closes; the error is of second order.
 )");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of force against mean gap, and of the contact models side by side.
+// Figures of force against mean gap, and of the contact models compared.
 "use strict";
 
 const mean = (values) => {
@@ -8,7 +8,7 @@ const mean = (values) => {
 };
 const ratioOf = (estimate, by) => Object.fromEntries(Object.entries(estimate).map(([member, values]) => [member, values.map((v, i) => (known(v) ? v / (Array.isArray(by) ? by[i] : by) : null))]));
 
-/** What several figures need of a point of the parameter grid. */
+/** Numbers of one point of the parameter grid that several figures use. */
 function facts(point) {
   const area = point.surface ? point.surface.size_x * point.surface.size_y : NaN;
   const statistic = (name) => point.surface?.statistics?.find((s) => s.name === name)?.mean;
@@ -17,7 +17,7 @@ function facts(point) {
   const fit = point.fit?.bem;
   const result = {area, rms, scale, force: point.pressure.map((p) => p * area), count: point.surface?.realisations ?? 1};
   if (fit && fit.reference_pressure) {
-    // The mean of the fitted lines at a given pressure: ū = ⟨l ln p0⟩ − ⟨l⟩ ln p.
+    // Mean over the surfaces of the fitted gap at a given pressure: ū = ⟨l ln p0⟩ − ⟨l⟩ ln p.
     const usable = fit.decay_length.map((_, i) => i).filter((i) => known(fit.decay_length[i]) && fit.reference_pressure[i] > 0);
     result.length = mean(usable.map((i) => fit.decay_length[i]));
     result.logReference = mean(usable.map((i) => fit.decay_length[i] * Math.log(fit.reference_pressure[i]))) / result.length;
@@ -31,11 +31,11 @@ function facts(point) {
 
 /** The loop of an adhesive cycle. */
 function adhesionFigure(parent, point) {
-  const adhesion = point.adhesion, gap = adhesion.mean_gap, branches = [["coming closer", "loading_pressure", "bem"], ["drawn apart", "unloading_pressure", "gw_moments"]];
+  const adhesion = point.adhesion, gap = adhesion.mean_gap, branches = [["approach", "loading_pressure", "bem"], ["separation", "unloading_pressure", "gw_moments"]];
   addFigure(parent, {
     id: "adhesion-loop", title: "Pressure over mean gap in a cycle", height: 420,
-    alt: () => `Nominal pressure over mean gap, coming closer and drawn apart; the largest pull is ${quantity(-Math.min(...adhesion.unloading_pressure.mean.filter(known)), "Pa", 3)}.`,
-    caption: "Surfaces that adhere come closer and are drawn apart, gap by gap; below 0 the contact pulls. The area between both is the work that a cycle loses.",
+    alt: () => `Nominal pressure over mean gap, on approach and on separation; the largest pull is ${quantity(-Math.min(...adhesion.unloading_pressure.mean.filter(known)), "Pa", 3)}.`,
+    caption: "Adhesive surfaces approach and separate in steps of the gap. At negative pressures the contact pulls the surfaces together. The area between the two branches is the work lost in a cycle.",
     axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: false}},
     columns: () => [{label: "mean gap", key: "mean_gap", unit: "m", values: gap}, ...branches.flatMap(([title, name]) => estimateColumns(title, name, "Pa", adhesion[name]))],
     plot: () => ({series: branches.flatMap(([title, name, style]) => band(title, gap, adhesion[name], styleOf(style), {text: gap.map((g, i) => `${title}: ${quantity(adhesion[name].mean[i], "Pa", 3)}<br><i>ū</i> = ${quantity(g, "m", 3)}`)}))}),
@@ -47,20 +47,20 @@ function forceGapFigure(parent, point) {
   const fitted = known(f.length);
   const residual = fitted ? gap.mean.map((g, i) => (known(g) ? point.pressure[i] / f.pressureOf(g) - 1 : null)) : [];
   const text = gap.mean.map((g, i) => `<i>F</i> = ${quantity(f.force[i], "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa")}<br><i>ū</i> = ${quantity(g, "m")} = ${number(g / f.rms, 3)} <i>h</i><sub>rms</sub>`
-    + (known(gap.low?.[i]) ? `<br>95 %: ${interval({low: gap.low[i], high: gap.high[i]}, "m")}` : "") + (known(residual[i]) ? `<br>off the fit by ${percent(residual[i])}` : ""));
+    + (known(gap.low?.[i]) ? `<br>95 %: ${interval({low: gap.low[i], high: gap.high[i]}, "m")}` : "") + (known(residual[i]) ? `<br>deviation from the fit ${percent(residual[i])}` : ""));
   const inside = point.pressure.map((p) => fitted && p >= f.pressureMin * (1 - 1e-9) && p <= f.pressureMax * (1 + 1e-9));
   const worst = Math.max(...residual.filter((r, i) => inside[i] && known(r)).map(Math.abs), 0);
   addFigure(parent, {
     id: "force-gap", title: "Force against mean gap", height: 520,
-    alt: () => `Force of boundary elements against the mean gap, force logarithmic: from ${quantity(f.force[0], "N", 3)} at a gap of ${quantity(gap.mean[0], "m", 3)} to ${quantity(f.force.at(-1), "N", 3)} at ${quantity(gap.mean.at(-1), "m", 3)}.`
-      + (fitted ? ` The fitted line has the decay length ${quantity(f.length, "m", 3)}; within its window the force is at most ${number(100 * worst, 2)} % off it.` : " No law was fitted."),
-    caption: () => "‹F›(‹ū›) by boundary elements" + (f.count > 1 ? `: mean of ${f.count} surfaces with the 95 % band of the mean gap, and ${point.samples?.length < f.count ? `the first ${point.samples.length} surfaces` : "each surface"} as a thin line` : "")
-      + (fitted ? `. The line is ‹F› = ‹F›_{0} exp(−‹ū›/‹l›) with ‹l› = ${quantity(f.length, "m", 3)}, fitted in the shaded window and drawn on beyond it. Below: how far the force is from the line, at most ${number(100 * worst, 2)}${NARROW}% within the window. A straight row of points would be an exponential law; a bow is its failure.` : "."),
+    alt: () => `Force by boundary elements on a logarithmic scale against the mean gap: from ${quantity(f.force[0], "N", 3)} at a gap of ${quantity(gap.mean[0], "m", 3)} to ${quantity(f.force.at(-1), "N", 3)} at ${quantity(gap.mean.at(-1), "m", 3)}.`
+      + (fitted ? ` The fitted line has the decay length ${quantity(f.length, "m", 3)}; within the window of the fit the force deviates from it by at most ${number(100 * worst, 2)} %.` : " No law was fitted."),
+    caption: () => "Force ‹F› against mean gap ‹ū› by boundary elements" + (f.count > 1 ? `: mean of ${f.count} surfaces with the 95 % band of the mean gap, and ${point.samples?.length < f.count ? `the first ${point.samples.length} surfaces` : "each surface"} as a thin line` : "")
+      + (fitted ? `. The line is ‹F› = ‹F›_{0} exp(−‹ū›/‹l›) with ‹l› = ${quantity(f.length, "m", 3)}, fitted in the shaded window and extended beyond it. The lower panel shows the deviation of the force from this line, at most ${number(100 * worst, 2)}${NARROW}% within the window. Points on a straight line mean an exponential law; points on a curve mean that this law fails.` : "."),
     axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "force ‹F›", short: "‹F›", unit: "N", log: true, values: () => f.force, layout: {domain: fitted ? [0.4, 1] : [0, 1]}},
-      ...(fitted ? {y2: {label: "‹F› over fit, less 1", fixed: true, percent: true, layout: {domain: [0, 0.32], zeroline: true, zerolinecolor: color("vermilion"), zerolinewidth: 2}}} : {})},
+      ...(fitted ? {y2: {label: "deviation from fit", fixed: true, percent: true, layout: {domain: [0, 0.32], zeroline: true, zerolinecolor: color("vermilion"), zerolinewidth: 2}}} : {})},
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, {label: "force", key: "force", unit: "N", values: f.force},
       ...estimateColumns("mean gap", "mean_gap", "m", gap),
-      ...(fitted ? [{label: "force of the fit", key: "fit_force", unit: "N", values: gap.mean.map((g) => (known(g) ? f.pressureOf(g) * f.area : null))}, {label: "off the fit", key: "off_the_fit", unit: "1", values: residual, digits: 3}] : [])],
+      ...(fitted ? [{label: "force of the fit", key: "fit_force", unit: "N", values: gap.mean.map((g) => (known(g) ? f.pressureOf(g) * f.area : null))}, {label: "deviation from the fit", key: "off_the_fit", unit: "1", values: residual, digits: 3}] : [])],
     plot: () => {
       const series = [], shapes = [], annotations = [];
       if (fitted) {
@@ -78,13 +78,13 @@ function forceGapFigure(parent, point) {
       if (fitted) {
         const gaps = gap.mean.filter(known), low = Math.min(...gaps), high = Math.max(...gaps);
         const line = Array.from({length: 41}, (_, i) => low + ((high - low) * i) / 40);
-        // Far from its window the line leaves the picture.
+        // Far from the window of the fit the line would dwarf the curve.
         const shown = line.map((g) => [g, f.pressureOf(g) * f.area]).filter(([, y]) => y < 3 * f.force.at(-1));
         series.push({label: "‹F›_{0} exp(−‹ū›/‹l›)", x: shown.map(([g]) => g), y: shown.map(([, y]) => y), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"});
-        series.push({label: "off the fit", quiet: true, group: "boundary elements", x: gap.mean, y: residual, yaxis: "y2", mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 7, color: color("blue")}, text});
+        series.push({label: "deviation from the fit", quiet: true, group: "boundary elements", x: gap.mean, y: residual, yaxis: "y2", mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 7, color: color("blue")}, text});
       }
       series.push({label: f.count > 1 ? "boundary elements, mean" : "boundary elements", group: "boundary elements", x: gap.mean, y: f.force, mode: "lines+markers", line: {color: color("blue"), width: 2}, marker: {size: 6, color: color("blue")}, text});
-      // All of them where that leaves those within the window readable; beyond it they may grow without bound.
+      // The axis shows all residuals unless those outside the window would make those within it unreadable.
       const limit = Math.max(Math.min(1.15 * Math.max(...residual.filter(known).map(Math.abs), 0), 4 * worst), 0.02);
       return {series, shapes, annotations, ...(fitted ? {axes: {yaxis2: {range: [-limit, limit], nticks: 4}, xaxis: {anchor: "y2"}}} : {})};
     },
@@ -98,8 +98,8 @@ function localLengthFigure(parent, point) {
   const single = rows === 1;
   addFigure(parent, {
     id: "local-length", title: "Is the decay length a constant?", height: 520,
-    alt: () => `Local decay length against the mean gap, for ${rows} ${single ? "surface" : "surfaces"}: from ${quantity(Math.min(...local.local_decay_length.flat().filter(known)), "m", 3)} to ${quantity(Math.max(...local.local_decay_length.flat().filter(known)), "m", 3)}; the fit has ${quantity(f.length, "m", 3)}.`,
-    caption: `Local decay length −d‹ū›/d ln ‹p› between neighbouring loads. An exponential law would be a level line${known(f.length) ? `; the fit takes ‹l› = ${quantity(f.length, "m", 3)} (dashed) over the shaded window` : ""}.`,
+    alt: () => `Local decay length against the mean gap, for ${rows} ${single ? "surface" : "surfaces"}: from ${quantity(Math.min(...local.local_decay_length.flat().filter(known)), "m", 3)} to ${quantity(Math.max(...local.local_decay_length.flat().filter(known)), "m", 3)}; the fit gives ${quantity(f.length, "m", 3)}.`,
+    caption: `Local decay length −d‹ū›/d ln ‹p› between neighbouring loads. An exponential law gives a horizontal line${known(f.length) ? `; the fit has ‹l› = ${quantity(f.length, "m", 3)} (dashed) in the shaded window` : ""}.`,
     axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false, fixed: true}, y: {label: "local decay length", unit: "m", log: false}},
     columns: () => [{label: "surface", key: "surface", unit: "1", values: local.mean_gap.flatMap((row, r) => row.map(() => r + 1))}, {label: "mean gap", key: "mean_gap", unit: "m", values: local.mean_gap.flat()}, {label: "local decay length", key: "local_decay_length", unit: "m", values: local.local_decay_length.flat()}],
     plot: () => {
@@ -114,13 +114,13 @@ function localLengthFigure(parent, point) {
   });
 }
 
-// Abramowitz and Stegun 7.1.26: to 1.5e-7.
+// Abramowitz and Stegun 7.1.26, accurate to 1.5e-7.
 function erf(x) {
   const t = 1 / (1 + 0.3275911 * x);
   return 1 - ((((1.061405429 * t - 1.453152027) * t + 1.421413741) * t - 0.284496736) * t + 0.254829592) * t * Math.exp(-x * x);
 }
 
-/** One quantity of every model over the pressure, with bands and what theories say. */
+/** One quantity of every model over the pressure, with bands and the curves of theories. */
 function modelFigure(parent, point, {id, title, quantity: name, convert, y, caption, theories = [], extra = []}) {
   const f = facts(point), all = point.models.filter((m) => point.curve?.[name]?.[m.name]);
   const value = Object.fromEntries(all.map((m) => [m.name, convert ? convert(point.curve[name][m.name], f, m.name) : point.curve[name][m.name]]));
@@ -143,7 +143,7 @@ function modelFigure(parent, point, {id, title, quantity: name, convert, y, capt
       for (const model of [...models].reverse()) {
         const estimate = value[model.name];
         series.push(...band(model.title, x, estimate, styleOf(model.name), {text: x.map((v, k) => `${escaped(model.title)}: ${number(estimate.mean[k], 4)}`
-          + (known(estimate.low?.[k]) ? `<br>95 %: ${interval({low: estimate.low[k], high: estimate.high[k]}, "1")}` : "") + (bem && model.name !== "bem" && known(bem[k]) ? `<br>${percent(estimate.mean[k] / bem[k] - 1)} of boundary elements` : "")
+          + (known(estimate.low?.[k]) ? `<br>95 %: ${interval({low: estimate.low[k], high: estimate.high[k]}, "1")}` : "") + (bem && model.name !== "bem" && known(bem[k]) ? `<br>${percent(estimate.mean[k] / bem[k] - 1)} from boundary elements` : "")
           + `<br><i>p</i> = ${quantity(point.pressure[k], "Pa", 3)}${relative ? ` = ${number(v, 2)} <i>E</i>* <i>h</i>′` : ""}`)}));
       }
       return {series: series.reverse().sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))};
@@ -157,18 +157,18 @@ function modelFigures(parent, point) {
     id: "area-load", title: "Contact area", quantity: "contact_area_fraction",
     y: {label: "contact area ‹A›/‹A›_{0}", short: "‹A›/‹A›_{0}", unit: "1", log: true},
     theories: [{label: "Persson, erf(√2 ‹p›/(‹E›*‹h›′))", key: "persson_theory", of: (p) => erf(Math.SQRT2 * p)}, {label: "Bush, Gibson, Thomas, √(2π) ‹p›/(‹E›*‹h›′)", key: "bgt", of: (p) => Math.sqrt(2 * Math.PI) * p}],
-    extra: spots ? [{label: "boundary elements, less the edge cells", estimate: spots, style: {color: "blue", symbol: "circle-open", dash: "dot"}}] : [],
-    caption: "True contact area over nominal area. Greenwood–Williamson's summits do not feel each other, boundary elements do; theories hold for small loads, Persson's up to full contact. On a grid the contact area is too large by about half of the cells at its edge: the dotted curve leaves them out.",
+    extra: spots ? [{label: "boundary elements, corrected for edge cells", estimate: spots, style: {color: "blue", symbol: "circle-open", dash: "dot"}}] : [],
+    caption: "True contact area over nominal area. Summits of Greenwood–Williamson models do not interact unless the model says so; boundary elements include the interaction. The theories hold for small loads, Persson's up to full contact. On a grid the contact area is too large by about half of the cells at its edge; the dotted curve is corrected for this.",
   });
   modelFigure(parent, point, {
     id: "gap-load", title: "Mean gap", quantity: "mean_gap", convert: (e, f) => ratioOf(e, f.rms),
     y: {label: "mean gap ‹ū›/‹h›_{rms}", short: "‹ū›", unit: "1", log: false},
-    caption: "Mean gap of the deformed surfaces under the same pressure. A straight line here is an exponential law, its slope is −‹l›/‹h›_{rms}.",
+    caption: "Mean gap of the deformed surfaces under the same pressure. A straight line here means an exponential law; its slope is −‹l›/‹h›_{rms}.",
   });
   modelFigure(parent, point, {
     id: "stiffness-load", title: "Normal stiffness", quantity: "normal_stiffness", convert: (e, f) => ratioOf(e, f.force.map((force) => force / f.rms)),
     y: {label: "stiffness ‹K› ‹h›_{rms}/‹F›", short: "‹K›", unit: "1", log: false},
-    caption: "Stiffness over force, in units of 1/‹h›_{rms}: an exponential law makes it the constant ‹h›_{rms}/‹l›.",
+    caption: "Normal stiffness over force, in units of 1/‹h›_{rms}. For an exponential law it is the constant ‹h›_{rms}/‹l›.",
   });
   const ratio = point.damping?.modulus_ratio, normal = point.curve?.normal_stiffness;
   modelFigure(parent, point, {
@@ -176,11 +176,11 @@ function modelFigures(parent, point) {
     convert: (e, _, name) => ({mean: e.mean.map((v, i) => (known(v) && known(normal?.[name]?.mean[i]) ? v / normal[name].mean[i] : null))}),
     y: {label: "‹K›_{t}/‹K›", short: "‹K›_{t}/‹K›", unit: "1", log: false, fixed: true, layout: {rangemode: "tozero"}},
     theories: known(ratio) ? [{label: "‹G›*/‹E›*", key: "modulus_ratio", of: () => ratio}] : [],
-    caption: `Ratio of the mean stiffnesses. ‹K›_{t} = (‹G›*/‹E›*)‹K›, on which the closed forms rest, holds for circular spots; solves on the real contacts show how good it is here. ${(point.damping?.tangential_stiffness ?? "").replace(/^boundary elements: (.*)$/, "For boundary elements: $1.")}`,
+    caption: `Ratio of the mean stiffnesses. The closed forms assume ‹K›_{t} = (‹G›*/‹E›*)‹K›, which holds for circular spots; stiffnesses computed for the real contacts show how accurate that is here. ${(point.damping?.tangential_stiffness ?? "").replace(/^boundary elements: (.*)$/, "For boundary elements: $1.")}`,
   });
 }
 
-/** Decay length and area slope of each model, as a table that stands open. */
+/** Decay length and area slope of each model, as a table that is always shown. */
 function modelTable(point) {
   const fits = point.fit?.models;
   if (!fits) return null;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of damping, and of how the ensemble's means settle.
+// Figures of damping, and of the convergence of means over the surfaces.
 "use strict";
 
 const isDrag = (point) => point.damping?.mode === "drag";
 
 const slipFollowed = (point) => point.slip_followed === "yes" && point.solution?.damping_constant?.mean.some(known);
 
-/** The loss of the motion described, and the three routes to that without slip, as DampingPoint has them. */
+/** Labels and styles: the loss of the motion as described, and three methods for the loss without slip. */
 function routes(point) {
   return {
     ...(slipFollowed(point) ? {solution: {label: "computed, with slip", style: {color: "purple", symbol: "triangle-up", dash: "solid"}}} : {}),
@@ -35,14 +35,14 @@ function dampingFigure(parent, point) {
   let model = models.find((m) => m.name === "bem") ?? models[0], measure = "damping_constant";
   const select = (id, label, options, change) => h("label", {class: "choice", for: id}, label + " ",
     h("select", {id, onchange: (event) => { change(event.target.value); figure.redraw(); }}, options.map(([value, text]) => h("option", {value}, text))));
-  // Work and damping constant are proportional, whatever the motion.
+  // The damping constant is proportional to the work per cycle, with the same factor for all models.
   const constantPerWork = () => {
     const ratios = point.models.flatMap((m) => ["curve", "law"].flatMap((route) => (damping[route]?.work_per_cycle?.[m.name]?.mean ?? []).map((w, i) => damping[route].damping_constant[m.name].mean[i] / w))).filter(known);
     return ratios[0];
   };
   const direct = () => (damping.direct ?? []).map((d) => ({...d, value: d.work_per_cycle * (measure === "work_per_cycle" ? 1 : constantPerWork())}));
   const estimate = (route) => (route !== "solution" ? damping[route]?.[measure]?.[model.name] : model.name !== "bem" ? undefined : ratioOf(point.solution.damping_constant, measure === "work_per_cycle" ? constantPerWork() : 1));
-  // A second derivative of a curve may be far off everything else; such points stand in the table.
+  // The second derivative of a curve may be far from all other values; such points are only in the table.
   const shown = (key) => {
     const values = estimate(key), others = ["solution", "curve", "law"].filter((route) => route in routes(point)).flatMap((route) => estimate(route)?.mean ?? []).filter((v) => v > 0);
     if (key !== "small" || !values || !others.length) return values;
@@ -55,9 +55,9 @@ function dampingFigure(parent, point) {
       select("damping-measure", "Show", Object.entries(MEASURES).map(([key, m]) => [key, m.title]), (key) => { measure = key; })],
     alt: () => {
       const curve = estimate("curve"), i = curve ? curve.mean.findLastIndex(known) : -1;
-      return `${MEASURES[measure].title} against force by ${Object.keys(routes(point)).filter(estimate).length} routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: ${routes(point).curve.label} ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
+      return `${MEASURES[measure].title} against force by ${Object.keys(routes(point)).filter(estimate).length} methods for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: ${routes(point).curve.label} ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
     },
-    caption: () => `${slipFollowed(point) ? "With slip, by contacts where levels slip: the loss of the motion described. Without slip: by" : "By"} the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude: for boundary elements from contacts inside the oscillation, with bars of the numerical error, for other models on their curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value where the curve of a model does not cover the cycle, or where the error is larger than the number.${estimate("small") && shown("small").mean.some((v, i) => v !== estimate("small").mean[i]) ? " Points of Eq. (15) that are far off all others stand in the table." : ""}${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
+    caption: () => `${slipFollowed(point) ? "The loss with slip is that of the motion as described. The loss without slip" : "The loss"} is computed by three methods: the closed form of the paper with the fitted law; the same form with the curvature of the computed curve at each force; and the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude. For boundary elements, the theorem uses contacts solved within the oscillation, with bars for the numerical error; for other models it uses their force–gap curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value is shown where the curve of a model does not cover the cycle or the error is larger than the value.${estimate("small") && shown("small").mean.some((v, i) => v !== estimate("small").mean[i]) ? " Points of Eq. (15) that are far from all others are only in the table." : ""}${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
     get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, {label: "pressure", key: "pressure", unit: "Pa", values: point.pressure},
       ...Object.entries(routes(point)).flatMap(([key, route]) => (estimate(key) ? estimateColumns(route.label, `${key}_${measure}`, MEASURES[measure].unit, estimate(key)) : []))],
@@ -69,7 +69,7 @@ function dampingFigure(parent, point) {
       const drawn = band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
         + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${errorPercent(values.error[i] / Math.abs(values.mean[i]))}` : "")
-        + (!["curve", "solution"].includes(key) && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+        + (!["curve", "solution"].includes(key) && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} from the computed value` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
       if (values.error?.some(known)) drawn.at(-1).error_y = {type: "data", array: values.error.map((e, i) => (known(e) && known(values.mean[i]) ? e : 0)), color: color(route.style.color), thickness: 1.5};
       return drawn;
     })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),
@@ -81,18 +81,18 @@ function dampingFigure(parent, point) {
   const law = plainText(routes(point).law.label), name = law.split(",")[0];
   const ratio = Object.fromEntries(Object.entries(deviation).map(([member, values]) => [member, values.map((v) => (known(v) ? 1 + v : null))]));
   addFigure(parent, {
-    id: "damping-deviation", title: `How far ${name} is off`, height: 300,
-    alt: () => `${law} over the damping computed, by force: from ${number(Math.min(...ratio.mean.filter(known)), 3)} to ${number(Math.max(...ratio.mean.filter(known)), 3)}.`,
-    caption: `${law} over the damping constant computed without slip by the same boundary elements${f.count > 1 ? ": the ratio of their means over the surfaces, with the 95 % interval of that ratio" : ""}. What is computed needs no law and holds at any amplitude.`,
+    id: "damping-deviation", title: `Deviation of ${name}`, height: 300,
+    alt: () => `Ratio of ${law} to the computed damping constant, by force: from ${number(Math.min(...ratio.mean.filter(known)), 3)} to ${number(Math.max(...ratio.mean.filter(known)), 3)}.`,
+    caption: `Ratio of the damping constant by ${law}, to the one computed without slip from the same boundary elements${f.count > 1 ? "; ratio of the means over the surfaces, with its 95 % interval" : ""}. The computed value assumes no force law and holds at any amplitude.`,
     axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: `${name} over computed`, unit: "1", log: true, fixed: true}},
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("ratio", "ratio", "1", ratio)],
     plot: () => ({series: band("ratio", force, ratio, {color: "vermilion", symbol: "square", dash: "solid"},
-      {text: force.map((value, i) => `${number(ratio.mean[i], 3)}, off by ${percent(deviation.mean[i], 3)}` + (known(ratio.low?.[i]) ? `<br>95 %: ${interval({low: ratio.low[i], high: ratio.high[i]}, "1")}` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>ū</i> = ${number(point.curve?.mean_gap?.bem?.mean[i] / f.rms, 3)} <i>h</i><sub>rms</sub>`)}),
+      {text: force.map((value, i) => `${number(ratio.mean[i], 3)}, deviation ${percent(deviation.mean[i], 3)}` + (known(ratio.low?.[i]) ? `<br>95 %: ${interval({low: ratio.low[i], high: ratio.high[i]}, "1")}` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>ū</i> = ${number(point.curve?.mean_gap?.bem?.mean[i] / f.rms, 3)} <i>h</i><sub>rms</sub>`)}),
       shapes: [{type: "line", xref: "paper", x0: 0, x1: 1, y0: 1, y1: 1, line: {color: color("line"), width: 1.5}}]}),
   });
 }
 
-/** Every model's own damping curve over that of the boundary elements. */
+/** Ratio of the damping by each model to that by boundary elements. */
 function dampingRatioFigure(parent, point) {
   const ratios = point.over_bem?.work_per_cycle;
   const models = point.models.filter((m) => m.name !== "bem" && ratios?.[m.name]?.mean.some(known));
@@ -100,8 +100,8 @@ function dampingRatioFigure(parent, point) {
   const force = point.damping.force;
   addFigure(parent, {
     id: "damping-models", title: "Damping by other contact models", height: 360,
-    alt: () => `Damping of each model's curve over that of boundary elements on the same surfaces, by force: ${models.map((m) => `${m.title} from ${number(Math.min(...ratios[m.name].mean.filter(known)), 2)} to ${number(Math.max(...ratios[m.name].mean.filter(known)), 2)}`).join("; ")}.`,
-    caption: "Damping of each model's own curve over that of boundary elements on the same surfaces, at the same force: what a model that needs no boundary elements costs in the end.",
+    alt: () => `Ratio of the damping by each model to that by boundary elements on the same surfaces, by force: ${models.map((m) => `${m.title} from ${number(Math.min(...ratios[m.name].mean.filter(known)), 2)} to ${number(Math.max(...ratios[m.name].mean.filter(known)), 2)}`).join("; ")}.`,
+    caption: "Ratio of the damping from the force–gap curve of each model to that by boundary elements, on the same surfaces at the same force. It shows the error of using a model instead of boundary elements.",
     axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "over boundary elements", short: "ratio", unit: "1", log: true}},
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...models.flatMap((m) => estimateColumns(m.title, `${m.name}_ratio`, "1", ratios[m.name]))],
     plot: () => ({series: models.flatMap((m) => band(m.title, force, ratios[m.name], styleOf(m.name), {text: force.map((value, i) => `${escaped(m.title)}: ${number(ratios[m.name].mean[i], 3)}` + (known(ratios[m.name].low?.[i]) ? `<br>95 %: ${interval({low: ratios[m.name].low[i], high: ratios[m.name].high[i]}, "1")}` : "") + `<br><i>F</i> = ${quantity(value, "N")}`)})),
@@ -114,16 +114,16 @@ function convergenceFigure(parent, point) {
   if (!convergence?.mean?.some(known)) return;
   const last = convergence.mean.length - 1;
   addFigure(parent, {
-    id: "convergence", title: "How the mean settled", height: 300,
+    id: "convergence", title: "Convergence of the mean", height: 300,
     alt: () => `Mean of l over rms height over the first surfaces: ${number(convergence.mean[last], 3)} after ${convergence.surfaces[last]} surfaces, 95 % interval ${interval({low: convergence.low[last], high: convergence.high[last]}, "1")}.`,
-    caption: "Mean of ‹l›/‹h›_{rms} of boundary elements over the first 2, 3, … surfaces, with its 95 % interval. A band that still wanders asks for more seeds.",
+    caption: "Mean of ‹l›/‹h›_{rms} of boundary elements over the first 2, 3, … surfaces, with its 95 % interval. If the band still drifts at the end, use more seeds.",
     axes: {x: {label: "surfaces", unit: "1", log: false, fixed: true}, y: {label: "‹l›/‹h›_{rms}", unit: "1", log: false, fixed: true}},
     columns: () => [{label: "surfaces", key: "surfaces", unit: "1", values: convergence.surfaces}, ...estimateColumns("‹l›/‹h›_{rms}", "decay_length_over_rms_height", "1", convergence)],
     plot: () => ({series: band("mean", convergence.surfaces, convergence, {color: "blue", symbol: "circle", dash: "solid"}, {text: convergence.surfaces.map((n, i) => `${n} surfaces: ${number(convergence.mean[i], 4)}<br>95 %: ${interval({low: convergence.low[i], high: convergence.high[i]}, "1")}`)})}),
   });
 }
 
-/** The points of a parameter grid side by side. */
+/** Compares the points of a parameter grid. */
 function overviewFigure(parent, data) {
   const ratio = data.overview?.decay_length_over_rms_height;
   if (!ratio?.mean) return;
@@ -132,7 +132,7 @@ function overviewFigure(parent, data) {
   addFigure(parent, {
     id: "overview", title: "The points of the parameter grid", height: 340,
     alt: () => `l over rms height at each point: ${names.map((n, i) => `${n}: ${number(ratio.mean[i], 3)}`).join("; ")}.`,
-    caption: "‹l›/‹h›_{rms} of boundary elements at each point, with 95 % intervals. Choose a point above to see all of it.",
+    caption: "‹l›/‹h›_{rms} of boundary elements at each point, with 95 % intervals. Choose a point above to see its results.",
     axes: {x: {label: "point", fixed: true, layout: {tickvals: places, ticktext: places.map(String)}}, y: {label: "‹l›/‹h›_{rms}", unit: "1", log: false, fixed: true}},
     columns: () => [{label: "point", key: "point", values: names}, ...estimateColumns("‹l›/‹h›_{rms}", "decay_length_over_rms_height", "1", ratio), ...(data.overview.area_slope ? estimateColumns("area slope κ", "area_slope", "1", data.overview.area_slope) : [])],
     plot: () => ({series: [{label: "l/h", x: places, y: ratio.mean, mode: "markers", marker: {size: 8, color: color("blue")}, error_y: {type: "data", symmetric: false, array: bars.map((b) => b[0]), arrayminus: bars.map((b) => b[1]), color: color("blue"), thickness: 1.5, width: 4},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loss of a motion that the reader chooses, from the mean curve of the study. Its formulas are those of the library: contact/hermite.cpp,
+// The loss of a motion that the reader enters, from the mean curve of the study. The formulas are those of the library: contact/hermite.cpp,
 // contact/law/law.cpp, damping/spring_loss.cpp, and damping/assumptions.cpp.
 "use strict";
 
-/** A monotone cubic through points, x ↦ {value, slope}; slopes that are not given are those of the cubic through four neighbours. */
+/** A monotone cubic through points, x ↦ {value, slope}. Without given slopes it uses those of the cubic through four neighbours. */
 function monotoneCubic(x, y, given) {
   const count = x.length;
   const estimated = (at) => {
@@ -26,7 +26,7 @@ function monotoneCubic(x, y, given) {
   };
 }
 
-/** Force and tangential stiffness over the indentation −‹ū›, by the means over the surfaces; beyond its ends exponentials. Null where four loads are not known. */
+/** Force and tangential stiffness over the indentation −‹ū›, from the means over the surfaces, continued as exponentials beyond both ends. Null if fewer than four loads are known. */
 function lawOf(point) {
   const of = (name) => point.curve?.[name]?.bem?.mean ?? [], gap = of("mean_gap"), ratio = point.damping.modulus_ratio;
   const force = facts(point).force;
@@ -39,14 +39,14 @@ function lawOf(point) {
   const logStiffness = positive(tangential) ? monotoneCubic(x, loads.map((k) => Math.log(tangential[k]))) : null;
   const forceIn = (at) => Math.exp(logForce(at).value), stiffnessIn = (at) => (logStiffness ? Math.exp(logStiffness(at).value) : ratio * forceIn(at) * logForce(at).slope);
   const [low, high] = [x[0], x.at(-1)].map((at) => ({at, length: 1 / logForce(at).slope}));
-  // K_t/‹K›, by which levels slip: of a curve that has a ‹K›_t of its own; beyond the curve that of its end.
+  // K_t/‹K›, which decides when springs slip: from the curve if it has its own ‹K›_t; beyond the curve the value at its end.
   const ratioAt = (at) => { const inside = Math.min(high.at, Math.max(low.at, at)); return logStiffness ? stiffnessIn(inside) / (forceIn(inside) * logForce(inside).slope) : ratio; };
   const continued = (inside) => (at) => { const end = at < low.at ? low : at > high.at ? high : null; return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at); };
-  // Of levels deeper than the last 21 lengths e^{-21} = 1e-9 touches.
+  // Only e^{-21} = 1e-9 of the stiffness lies more than 21 decay lengths below the lowest load.
   return {low: low.at, high: high.at, deepest: low.at - 21 * low.length, force: continued(forceIn), stiffness: continued(stiffnessIn), ratio: ratioAt, indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
 }
 
-/** Where the indentation is in the mean: at the load, or where the mean force of the cycle is that of the load. */
+/** The mean indentation: that of the load, or, if the mean force is held, the one at which the mean force of the cycle is the load. */
 function meanIndentation(point, law, k, amplitude) {
   const rest = law.indentation(k), force = law.force(rest);
   if (point.damping.hold !== "force") return rest;
@@ -56,7 +56,7 @@ function meanIndentation(point, law, k, amplitude) {
   return low;
 }
 
-/** ∮s dx of one spring of 1 N/m that touches at phases from −half to half, in the last of the periods, with Coulomb friction. */
+/** ∮s dx of one spring of 1 N/m with Coulomb friction in the last of the periods; it touches at phases from −half to half. */
 function springLoss(motion, level, half, periods) {
   const steps = 360, limitAt = (angle) => Math.max(0, motion.stretch * (motion.amplitude * Math.cos(angle) - level));
   let work = 0, stretch = 0;
@@ -79,7 +79,7 @@ function springLoss(motion, level, half, periods) {
   return work;
 }
 
-/** Mean rise over ‹u›_{z} of the least indentation's neighbours, at a velocity over ‹v›_{c} (damping/steady_sliding.cpp). */
+/** Mean of (m − δ_min)/u_z over a period at the velocity ratio v/v_c, as Period::mean_rise() in damping/steady_sliding.cpp. */
 function meanRise(ratio) {
   if (ratio >= 1) return 1;
   const from = Math.asin(ratio);
@@ -89,7 +89,7 @@ function meanRise(ratio) {
   return (2 * Math.PI - stuck - (Math.sin(from) - Math.sin(low)) + 2 * Math.sin(from / 2) ** 2 * stuck + ratio * stuck * stuck / 2) / (2 * Math.PI);
 }
 
-/** What a level that never opens loses on a way between turning points at random phases, as SlidingSprings (damping/spring_loss.hpp). */
+/** Loss of springs that never open, over an excursion between turning points at random phases, as SlidingSprings in damping/spring_loss.hpp. */
 function slidingSprings({amplitude, stretch, speed, excursion}) {
   const swing = stretch * amplitude, rise = swing * meanRise(speed / swing), phases = 240, step = 2 * Math.PI * speed / phases, place = [];
   let last = 0, back = 0, lowest = Infinity;
@@ -109,7 +109,7 @@ function slidingSprings({amplitude, stretch, speed, excursion}) {
   };
 }
 
-/** The motion of the numbers that a reader sets, about an indentation. */
+/** The motion about a mean indentation, from the numbers that the reader enters. */
 function motionOf(law, middle, set) {
   const omega = 2 * Math.PI * set.frequency, speed = set.drag_velocity / omega;
   const drag = known(set.drag_velocity);
@@ -118,7 +118,7 @@ function motionOf(law, middle, set) {
     perWork: set.frequency / (drag ? set.drag_velocity ** 2 : (omega * set.tangential_amplitude) ** 2 / 2)};
 }
 
-/** ∫K_t' w dζ over levels from the first to the last. */
+/** ∫K_t' w dζ over spring depths from the first to the last. */
 function overSprings(law, levels, loss) {
   let sum = 0, above = law.stiffness(levels[0]);
   for (let i = 1; i < levels.length; ++i) {
@@ -129,7 +129,7 @@ function overSprings(law, levels, loss) {
   return sum;
 }
 
-/** Losses of a normal cycle, J: without slip, and with it of springs that open and of those that stay closed. */
+/** Losses of a normal cycle, J: without slip, and with slip those of springs that open and of springs that stay closed. */
 function losses(law, middle, motion) {
   const {amplitude, stretch} = motion, cells = 240;
   const opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(Math.PI * i / cells));
@@ -141,14 +141,14 @@ function losses(law, middle, motion) {
   return {stick, opened, relaxation: opened * Math.max(0, 1 - taken), slip: slipLoss(law, middle, motion)};
 }
 
-/** What a turning point of a slow motion takes, in losses of one normal cycle of springs that open. */
+/** The loss missing at a turning point of a slow motion, in losses of one normal cycle of springs that open. */
 function costOfTurning(law, middle, amplitude) {
   const angles = Array.from({length: 360}, (_, i) => Math.PI * (i + 0.5) / 360), closed = law.stiffness(middle - amplitude);
   const opening = angles.map((angle) => law.stiffness(middle + amplitude * Math.cos(angle)) - closed);
   return angles.reduce((sum, angle, i) => sum + angle * angle * opening[i], 0) / (Math.PI * angles.reduce((sum, angle, i) => sum + angle * opening[i], 0));
 }
 
-/** Of levels that stay closed, by their slip. */
+/** The loss by slip of springs that stay closed, J. */
 function slipLoss(law, middle, motion) {
   const {amplitude, stretch, excursion, way} = motion, cells = 256, bottom = middle - amplitude, depth = bottom - Math.max(slipsDownTo(middle, motion), law.deepest);
   if (!(depth > 0)) return motion.drag && !known(excursion) ? NaN : 0;
@@ -160,24 +160,24 @@ function slipLoss(law, middle, motion) {
   return overSprings(law, levels, (level) => springLoss(motion, level - middle, Math.PI, 2));
 }
 
-/** The deepest level that slips: deeper ones stick where one anchor is within their limit of x at all times. */
+/** The depth of the deepest springs that slip. Deeper ones stick: one anchor is within their friction limit of x at all times. */
 function slipsDownTo(middle, motion) {
   if (motion.drag) return middle - motion.amplitude - slidingSprings(motion).deepest / motion.stretch;
   const angles = Array.from({length: 360}, (_, i) => 2 * Math.PI * i / 360), limit = (angle) => motion.stretch * motion.amplitude * Math.cos(angle);
   return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
 }
 
-/** How much of the contact slips, as Assumptions::regime. */
+/** The regime, as Assumptions::regime in the library. */
 function regimeOf(law, middle, motion, loss) {
   if (!known(motion.stretch) || (motion.drag && !(motion.excursion >= motion.way))) return "unknown";
   const bottom = middle - motion.amplitude, changed = (slipping, stick) => !(Math.abs(slipping / stick - 1) <= 0.05);
-  // Slip of opening and of closed levels may cancel: smaller motions than this one are asked too.
+  // The effects of slip in opening and in closed springs may cancel, so smaller motions are checked too.
   const ladder = [];
   if (!motion.drag) for (let part = 1; motion.tangential_amplitude * part > 0.01 * motion.stretch * motion.amplitude; part /= 1.2) ladder.push(part);
   const slips = motion.drag ? changed(loss.opened, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
     : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.opened + one.slip, one.stick); });
   if (!slips) return "no slip";
-  // Below the velocity from which opening levels never stick they may lose more than those that slide.
+  // Below the velocity at which opening springs never stick, they may lose more than sliding ones.
   const friction = !motion.drag || motion.speed >= motion.stretch * motion.amplitude || loss.slip >= loss.stick;
   return friction && law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
 }
@@ -186,16 +186,16 @@ const VERDICTS = ["holds", "doubtful", "broken", "unknown"];
 const RANKS = ["broken", "doubtful", "unknown", "holds"];
 const VALIDITY = {broken: "not valid", doubtful: "valid with care", unknown: "not checked", holds: "valid"};
 
-/** The verdicts of this loss at load ‹k›, in the words of the library; those that no motion changes as the study has them. */
+/** The assumptions of this loss at load k, in the words of the library. Assumptions that do not depend on the motion are taken from the study. */
 function verdictsOf(point, k, law, middle, motion, loss) {
   const judge = (value, five, twenty) => (!known(value) ? "unknown" : value > twenty ? "broken" : value > five ? "doubtful" : "holds");
   const found = [], add = (name, verdict, value, limit, needs) => {
     const words = point.assumptions[name];
     if (verdict === "holds" && !known(value)) return;
     const fill = (text, number) => text.replace("{}", quantity(number, words.unit, 3));
-    found.push({name, verdict, assumption: name === "plasticity" && limit === 1 ? "elastic again: loads below that of the first loading" : known(limit) ? fill(words.assumption, limit) : words.assumption.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for such a motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
+    found.push({name, verdict, assumption: name === "plasticity" && limit === 1 ? "elastic again: loads below the largest of the first loading" : known(limit) ? fill(words.assumption, limit) : words.assumption.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for this motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
   };
-  // As verdicts_of() has it, of a loss with slip.
+  // As verdicts_of() of the library does for a loss with slip.
   if (regimeOf(law, middle, motion, loss) === "sliding") found.push({name: "regime", verdict: "broken", assumption: "a damper: the contact does not slide as a whole", here: motion.drag ? "γ = µF/v: Coulomb friction, not a damper" : "γ = 4µF/(πωu_x): Coulomb friction, not a damper", remedy: motion.drag ? "use `salebra sliding`" : "use the energy dissipated in a cycle"});
   if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_springs", "slip_of_closed_springs"]) add(name, "unknown", null, null, "friction_coefficient");
   if (motion.drag) {
@@ -214,8 +214,8 @@ function verdictsOf(point, k, law, middle, motion, loss) {
 }
 
 /**
- * How far the curve between loads is off the contacts that the study solved within its own oscillation, beyond their error: one more condition. Null where it solved none.
- * A surface of which single spots decide may have a curve that is far off.
+ * One more assumption: the loss from the curve between loads agrees with that from contacts that the study solved within its own oscillation, up to their error.
+ * Null if the study solved none. If a few spots carry the load, the curve may be far from the contacts.
  */
 function curveVerdict(point, k, law) {
   const contacts = point.solution?.damping_constant;
@@ -224,11 +224,11 @@ function curveVerdict(point, k, law) {
   const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
   const off = curve / contacts.mean[k] - 1, error = contacts.error[k] / contacts.mean[k], beyond = Math.max(0, Math.abs(off) - error);
   const verdict = !known(beyond) ? "unknown" : beyond > 0.2 ? "broken" : beyond > 0.05 ? "doubtful" : "holds";
-  return {name: "curve", verdict, assumption: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "`study` with this motion solves them",
-    here: known(off) ? `${quantity(curve, "N s/m", 3)} and ${quantity(contacts.mean[k], "N s/m", 3)} to ${errorPercent(error)}, in the motion of the study` : "not known at this load"};
+  return {name: "curve", verdict, assumption: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "run `study` with this motion to solve them",
+    here: known(off) ? `${quantity(curve, "N s/m", 3)} by the curve and ${quantity(contacts.mean[k], "N s/m", 3)} ± ${errorPercent(error)} by contacts, in the motion of the study` : "not known at this load"};
 }
 
-/** What the program says of a motion at load ‹k› of the mean curve; numbers that it does not give are NaN, and `why` says so. */
+/** The numbers of the program for a motion at load k of the mean curve. Numbers that it does not give are NaN, and `why` states the reason. */
 function explore(point, k, set) {
   const law = lawOf(point), middle = meanIndentation(point, law, k, set.normal_amplitude), motion = motionOf(law, middle, set);
   const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", verdicts: [], why});
@@ -238,14 +238,14 @@ function explore(point, k, set) {
   if (!(middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high)) return nothing("`normal_amplitude` leaves the curve’s range; reduce the amplitude or extend the curve.");
   const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
   const curve = curveVerdict(point, k, law), verdicts = [...(curve ? [curve] : []), ...verdictsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = verdicts.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
-  const why = motion.drag && slips && !known(motion.excursion) ? "`excursion` decides and is not given." : motion.drag && motion.excursion < motion.way ? "An excursion that one normal cycle covers is no slow motion."
-    : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; `study` with this motion solves what it needs." : "";
+  const why = motion.drag && slips && !known(motion.excursion) ? "The loss depends on `excursion`, which is not given." : motion.drag && motion.excursion < motion.way ? "The motion is not slow: one normal cycle covers the excursion."
+    : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; run `study` with this motion." : "";
   const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick;
   return {work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
-    validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (slipsDownTo(middle, motion) < law.low ? "Levels slip that touch below the lowest load of the study; there the curve is continued as an exponential." : "")};
+    validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (slipsDownTo(middle, motion) < law.low ? "Some of the slip is in parts of the contact that touch below the lowest load of the study, where the curve is continued as an exponential." : "")};
 }
 
-/** The motion of the study, with what it knows of friction. */
+/** The motion of the study, with its coefficient of friction and excursion if known. */
 function studiedMotion(point) {
   const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, friction_coefficient} = point.damping, frequency = angular_frequency / (2 * Math.PI);
   const excursion = point.assumptions.slip_of_closed_springs.value.find(known) ?? NaN;
@@ -253,7 +253,7 @@ function studiedMotion(point) {
 }
 
 const CONTROLS = {normal_amplitude: ["normal amplitude ‹u›_{z}", "m"], frequency: ["frequency", "Hz"], drag_velocity: ["velocity ‹v›", "m/s"], tangential_amplitude: ["tangential amplitude ‹u›_{x}", "m"], phase: ["phase", "rad"],
-  excursion: ["excursion ‹X›, from one turning point to the other", "m"], friction_coefficient: ["friction coefficient ‹μ›", "1"]};
+  excursion: ["excursion ‹X› from one turning point to the other", "m"], friction_coefficient: ["friction coefficient ‹μ›", "1"]};
 
 function explorer(body, point) {
   const studied = studiedMotion(point), set = {...studied}, panel = h("div", {class: "answer", "aria-live": "polite"});
@@ -283,7 +283,7 @@ function explorer(body, point) {
   update();
 }
 
-/** Regimes of the slow motion over velocity and excursion, with borders as regime_map() of the library, and the motion that is set. */
+/** Regimes of the slow motion over velocity and excursion, with the borders of regime_map() of the library, and the entered motion. */
 function regimeMap(parent, point, set) {
   const borders = () => {
     const law = lawOf(point), middle = meanIndentation(point, law, shownLoad(point), set.normal_amplitude), at = (velocity) => motionOf(law, middle, {...set, drag_velocity: velocity});
@@ -291,7 +291,7 @@ function regimeMap(parent, point, set) {
     const ends = [Math.min(critical, set.drag_velocity) / 100, Math.max(critical, set.drag_velocity) * 10];
     const velocity = Array.from({length: 31}, (_, i) => ends[0] * (ends[1] / ends[0]) ** (i / 30)), way = velocity.map((v) => at(v).way);
     const bottom = middle - set.normal_amplitude;
-    // Where a condition that holds at the lower end no longer does.
+    // The value at which a condition that holds at the lower end stops holding, by bisection.
     const last = (low, high, holds) => { if (!holds(low)) return 0; for (let i = 0; i < 40; ++i) { const m = Math.sqrt(low * high); if (holds(m)) low = m; else high = m; } return low; };
     if (!slips || !(bottom >= law.low && middle + set.normal_amplitude <= law.high)) return {velocity, way, noSlip: way.map(() => null), sliding: null, critical: null};
     const noSlip = velocity.map((v, i) => {
@@ -304,16 +304,16 @@ function regimeMap(parent, point, set) {
   const mine = () => explore(point, shownLoad(point), set);
   return addFigure(parent, {
     id: "regime-map", title: "Regimes of the slow motion", height: 420,
-    alt: () => `Map of regimes over velocity and excursion at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)}; the motion set, ${quantity(set.drag_velocity, "m/s", 3)} over ${quantity(set.excursion, "m", 3)}: ${mine().regime}.`,
-    caption: () => `Regimes at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)} for the normal oscillation and the friction that are set. No slip: the loss is that without slip to 5${NARROW}%. Sliding: less than 5${NARROW}% of the least normal force sticks at all times. Grey: one normal cycle covers the excursion, and the motion is not slow.`,
+    alt: () => `Map of regimes over velocity and excursion at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)}; the motion entered, ${quantity(set.drag_velocity, "m/s", 3)} over ${quantity(set.excursion, "m", 3)}: ${mine().regime}.`,
+    caption: () => `Regimes at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)} for the normal oscillation and the coefficient of friction entered above. No slip: slip changes the loss by less than 5${NARROW}%. Sliding: less than 5${NARROW}% of the minimum normal force is on parts that always stick. Grey: the motion is not slow, because one normal cycle covers the excursion.`,
     axes: {x: {label: "velocity ‹v›", unit: "m/s", log: true, fixed: true, values: () => [set.drag_velocity]}, y: {label: "excursion ‹X›", unit: "m", log: true, fixed: true, values: () => [known(set.excursion) ? set.excursion : set.normal_amplitude]}},
-    columns: () => { const b = borders(); return [{label: "velocity", key: "velocity", unit: "m/s", values: b.velocity}, {label: "way in a normal cycle", key: "way_per_cycle", unit: "m", values: b.way}, {label: "largest excursion without slip", key: "no_slip_excursion", unit: "m", values: b.noSlip}, {label: "excursion from which it slides", key: "sliding_excursion", unit: "m", values: b.velocity.map(() => b.sliding)}]; },
+    columns: () => { const b = borders(); return [{label: "velocity", key: "velocity", unit: "m/s", values: b.velocity}, {label: "distance per normal cycle", key: "way_per_cycle", unit: "m", values: b.way}, {label: "largest excursion without slip", key: "no_slip_excursion", unit: "m", values: b.noSlip}, {label: "smallest excursion with sliding", key: "sliding_excursion", unit: "m", values: b.velocity.map(() => b.sliding)}]; },
     plot: () => {
       const b = borders(), x = set.excursion, floor = Math.min(b.way[0], x || Infinity) / 3, top = Math.max(b.way.at(-1), b.sliding ?? 0, x || 0) * 3;
       const first = b.way, second = first.map((w, i) => Math.max(w, b.noSlip[i] ?? 0)), third = second.map((s) => Math.max(s, b.sliding ?? s)), last = first.map(() => top);
       const region = (label, from, to, paint) => ({label, x: [...b.velocity, ...[...b.velocity].reverse()], y: [...from, ...[...to].reverse()], fill: "toself", mode: "none", fillcolor: paint, hoverinfo: "skip"});
       return {series: [region("not slow", first.map(() => floor), first, faint("slate", 0.35)), ...(b.sliding ? [region("no slip", first, second, faint("green", 0.45)), region("partial slip", second, third, faint("blue", 0.35)), region("sliding", third, last, faint("vermilion", 0.4))] : []),
-        ...(known(x) ? [{label: "motion set", x: [set.drag_velocity], y: [x], mode: "markers", marker: {symbol: "star", size: 15, color: color("ink")}, text: [`v = ${quantity(set.drag_velocity, "m/s", 3)}, X = ${quantity(x, "m", 3)}: ${mine().regime}`]}] : [])]};
+        ...(known(x) ? [{label: "motion entered", x: [set.drag_velocity], y: [x], mode: "markers", marker: {symbol: "star", size: 15, color: color("ink")}, text: [`v = ${quantity(set.drag_velocity, "m/s", 3)}, X = ${quantity(x, "m", 3)}: ${mine().regime}`]}] : [])]};
     },
   });
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One figure: its plot, legend, switches, CSV and table, and what a screen reader is told of it.
+// One figure: its plot, legend, switches, CSV and table, and its text for screen readers.
 "use strict";
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const printing = matchMedia("print");
-const drawn = [];  // every figure on the page, drawn when all have their places, and again when colours change
+const drawn = [];  // every figure on the page; drawn when all are in the page, and again when colours change
 
 /** A colour of report.css. */
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-/** The same with an opacity; colours of report.css are #rrggbb. */
+/** A colour of report.css, #rrggbb, with an opacity. */
 function faint(name, opacity) {
   const value = parseInt(color(name).slice(1), 16);
   return `rgba(${value >> 16}, ${(value >> 8) & 255}, ${value & 255}, ${opacity})`;
@@ -25,14 +25,13 @@ const MODEL_STYLES = {
 };
 const styleOf = (model) => MODEL_STYLES[model] ?? {color: "ink", symbol: "circle-open", dash: "dashdot"};
 
-/** A curve with markers; `band` fills between low and high. Values are in SI, axes scale them. */
 const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, size: 13, color: color("ink")});
 
 /**
  * spec  {id, title, caption, alt, height?, columns, axes: {x: {label, unit, log, fixed?}, y: …, y2?}, controls?, square?, plot(tools)}
- *       axes      label without unit; log: how it starts; fixed: no switch; values: those that decide on its prefix
+ *       axes      label: without unit; log: initial scale; fixed: no switch; values: returns the values that determine the SI prefix
  *       plot      returns {series, shapes?, annotations?, layout?}; a series is a plotly trace in SI units with {label, group?}
- *       controls  elements that stand before the switches; they call figure.redraw()
+ *       controls  elements before the switches; they call figure.redraw()
  */
 function addFigure(parent, spec) {
   const state = {hidden: new Set()};
@@ -72,7 +71,7 @@ function addFigure(parent, spec) {
   return figure;
 }
 
-/** The picture as it stands, as SVG: for a paper or a slide. */
+/** Downloads the picture as shown, as SVG for a paper or a slide. */
 async function pictureOf(id, plot) {
   const address = await Plotly.toImage(plot, {format: "svg", width: plot.clientWidth, height: plot.clientHeight});
   download(`${id}.svg`, "image/svg+xml", decodeURIComponent(address.slice(address.indexOf(",") + 1)));
@@ -81,10 +80,10 @@ async function pictureOf(id, plot) {
 
 const scaled = (values, factor) => values.map((v) => (known(v) ? v * factor : null));
 
-/** Error bars of a trace in the units of its axis, as its values are. */
+/** Scales the error bars of a trace to the units of its axis. */
 const scaledBars = (bars, factor) => ({...bars, ...Object.fromEntries(["array", "arrayminus"].filter((arm) => bars[arm]).map((arm) => [arm, scaled(bars[arm], factor)]))});
 
-/** Labels of a logarithmic axis: plain numbers while they are short, 1, 2 and 5 of each decade in full where there are few. */
+/** Labels of a logarithmic axis: plain numbers if they are short; 1, 2 and 5 of each decade if there are few decades. */
 function logarithmicTicks(values) {
   const there = values.filter((v) => known(v) && v > 0);
   if (!there.length) return {};
@@ -128,7 +127,7 @@ function draw(spec, state, plot, legend, figure) {
       y: scaled(Array.from(trace.y), factorOf(trace, "y")), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),
     };
   });
-  // Shapes and annotations name SI values too; plotly wants logarithms on a logarithmic axis for annotations only.
+  // Shapes and annotations are in SI units too. On a logarithmic axis, plotly expects logarithms for annotations but not for shapes.
   const place = (item, logarithms) => {
     const moved = {...item};
     for (const letter of ["x", "y"]) {
@@ -151,14 +150,14 @@ function draw(spec, state, plot, legend, figure) {
   drawLegend(content.series, state, legend, figure);
 }
 
-// The marks of the curves, as plotly draws them.
+// The markers of the curves, in the shapes that plotly draws.
 const LEGEND_MARKS = {
   circle: `<circle cx="14" cy="5" r="3.2"/>`, "circle-open": `<circle class="open" cx="14" cy="5" r="3"/>`, square: `<rect x="11" y="2" width="6" height="6"/>`,
   diamond: `<path class="solid" d="M14 1L18 5L14 9L10 5Z"/>`, "triangle-up": `<path class="solid" d="M14 1.2L18 8.2H10Z"/>`, star: `<path class="solid" d="M14 0.5L15.3 3.6L18.7 3.9L16.1 6.1L16.9 9.4L14 7.6L11.1 9.4L11.9 6.1L9.3 3.9L12.7 3.6Z"/>`,
   cross: `<path class="solid" d="M12.7 1.5H15.3V3.7H17.5V6.3H15.3V8.5H12.7V6.3H10.5V3.7H12.7Z"/>`, x: `<path class="open" d="M11 2L17 8M17 2L11 8"/>`,
 };
 
-/** Buttons, so that curves can be hidden by keyboard too; a curve's sample is drawn as the curve is. */
+/** Draws the legend as buttons, so that curves can be hidden by keyboard too, each with a sample of its curve. */
 function drawLegend(series, state, legend, figure) {
   const entries = new Map();
   for (const s of series) {
@@ -197,7 +196,7 @@ printing.addEventListener("change", () => {
 
 // Building blocks of plots.
 
-/** Mean with its band: {mean, low, high} over x. */
+/** Traces of an estimate {mean, low, high} over x: the mean and its band. */
 function band(label, x, estimate, style, more = {}) {
   const series = [];
   const inside = x.map((_, i) => i).filter((i) => known(estimate.low?.[i]) && known(estimate.high?.[i]));
@@ -213,7 +212,7 @@ function band(label, x, estimate, style, more = {}) {
   return series;
 }
 
-/** Columns mean, low and high of an estimate, those that it has. */
+/** Columns of those of mean, low, high and error that an estimate has. */
 function estimateColumns(label, key, unit, estimate) {
   const columns = [{label, key, unit, values: estimate.mean}];
   if (estimate.low?.some(known)) {
@@ -224,13 +223,13 @@ function estimateColumns(label, key, unit, estimate) {
   return columns;
 }
 
-/** The numbers of a map, which come as base64. */
+/** Decodes the numbers of a map from base64. */
 function decoded(text, Type) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   return new Type(bytes.buffer);
 }
 
-/** Columns of the map for plotly: z[iy][ix] out of values (ix, iy), y contiguous. */
+/** Rows of a map for plotly: z[iy][ix] from values (ix, iy) with y contiguous. */
 function matrix(values, nx, ny, value) {
   return Array.from({length: ny}, (_, iy) => Array.from({length: nx}, (_unused, ix) => value(values[ix * ny + iy])));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers, units and text, as the page shows them.
+// Formats numbers, units and text for the page.
 "use strict";
 
 const PREFIXES = {"-18": "a", "-15": "f", "-12": "p", "-9": "n", "-6": "µ", "-3": "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"};
@@ -7,12 +7,12 @@ const NARROW = "\u202f";  // between a number and its unit
 
 const known = (value) => typeof value === "number" && Number.isFinite(value);
 
-// How a unit takes a prefix: at which power of the base, and how it reads with one.
+// Units with a power of a base unit: the power to which a prefix is raised, and the unit with a prefix.
 const POWERS = {"m^2": [2, (p) => `${p}m²`], "1/m^2": [-2, (p) => `1/${p}m²`], "1/m": [-1, (p) => `1/${p}m`]};
-// Units that take none: their numbers are written with a power of ten.
+// Units that take no prefix: their numbers are written with a power of ten.
 const BARE = {"m^4": "m⁴", "rad/m": "rad/m", "1": ""};
 
-/** {factor, label}: value·factor is to be read in units of label, and the largest of the values has one to three digits before the point. */
+/** Returns {factor, label}: value·factor is in units of label, and the largest of the values has one to three digits before the point. */
 function scaleFor(values, unit) {
   if (unit in BARE) return {factor: 1, label: BARE[unit]};
   const [power, write] = POWERS[unit] ?? [1, (p) => p + unit];
@@ -26,7 +26,7 @@ function scaleFor(values, unit) {
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 const raised = (integer) => (integer < 0 ? "⁻" : "") + [...String(Math.abs(integer))].map((c) => SUPERSCRIPTS[c]).join("");
 
-/** A pure number with that many significant digits: 0.4123, 12300, 1.2 × 10⁻⁵; `full` keeps zeros at the end, for columns. */
+/** Formats a number with this many significant digits: 0.4123, 12300, 1.2 × 10⁻⁵. `full` keeps trailing zeros, for columns. */
 function number(value, digits = 4, full = false) {
   if (!known(value)) return "n/a";
   if (value === 0) return "0";
@@ -41,14 +41,14 @@ function number(value, digits = 4, full = false) {
 
 const minus = (text) => text.replace(/-/g, "−");
 
-/** With unit and SI prefix: 14.3 nm. */
+/** Formats a number with unit and SI prefix: 14.3 nm. */
 function quantity(value, unit, digits = 4) {
   if (!known(value)) return "n/a";
   const {factor, label} = scaleFor([value], unit);
   return number(value * factor, digits) + (label ? NARROW + label : "");
 }
 
-/** low … high with one unit, to two digits of their distance: 13.6 … 15.1 nm; empty where there is no interval. */
+/** Formats low … high with one unit and two digits of their difference: 13.6 … 15.1 nm. Empty if there is no interval. */
 function interval(estimate, unit) {
   if (!estimate || !known(estimate.low) || !known(estimate.high)) return "";
   const {factor, label} = scaleFor([estimate.low, estimate.high], unit);
@@ -64,24 +64,24 @@ function percent(value, digits = 2) {
   return (value > 0 ? "+" : "") + text + NARROW + "%";
 }
 
-/** Of an error, which has no sign. */
+/** Formats a relative error, which has no sign. */
 const errorPercent = (value) => (known(value) ? number(100 * value, 2) + NARROW + "%" : "n/a");
 
-// Text of the page knows three marks, which stand for the same in HTML and in plotly: ‹italic›, _{sub}, ^{sup}.
+// Markup of the texts, translated to HTML and to plotly: ‹italic›, _{sub}, ^{sup}.
 const MARKS = /‹([^›]+)›|_\{([^}]*)\}|\^\{([^}]*)\}/g;
 
-// Symbols of the page: what each means, its unit, and the page of the documentation that defines it.
+// Symbols: meaning, unit, and the page of the documentation that defines the symbol.
 const SYMBOLS = {
   p: ["nominal pressure, force over nominal area", "Pa", "docs/glossary.md"], F: ["normal force", "N", "docs/theory.md"],
   "ū": ["mean gap of the deformed surfaces", "m", "docs/conventions.md"], l: ["decay length of the force with the mean gap", "m", "docs/theory.md"],
   h: ["height; ‹h›_{rms} root mean square height, ‹h›′ root mean square slope", "m, 1", "docs/statistics.md"], A: ["contact area; ‹A›_{0} nominal area", "m²", "docs/statistics.md"],
   K: ["normal stiffness d‹F›/dδ; ‹K›_{t} tangential stiffness", "N/m", "docs/theory.md"], E: ["‹E›*, contact modulus", "Pa", "docs/theory.md"], G: ["‹G›*, tangential modulus", "Pa", "docs/theory.md"],
-  u: ["‹u›_{z} normal amplitude, ‹u›_{x} tangential amplitude", "m", "docs/theory.md"], v: ["velocity of the slow tangential motion", "m/s", "docs/theory_friction.md"], X: ["excursion: way of the slow motion from one turning point to the other", "m", "docs/theory_friction.md"], "μ": ["coefficient of friction", "1", "docs/theory_friction.md"],
+  u: ["‹u›_{z} normal amplitude, ‹u›_{x} tangential amplitude", "m", "docs/theory.md"], v: ["velocity of the slow tangential motion", "m/s", "docs/theory_friction.md"], X: ["excursion: distance from one turning point of the slow motion to the other", "m", "docs/theory_friction.md"], "μ": ["coefficient of friction", "1", "docs/theory_friction.md"],
   W: ["energy lost in a cycle", "J", "docs/theory.md"], "γ": ["damping constant, power over mean square velocity", "N s/m", "docs/theory.md"],
   C: ["power spectral density of the heights", "m⁴", "docs/conventions.md"], q: ["wave number, 2π over the wavelength", "rad/m", "docs/conventions.md"], H: ["Hurst exponent", "1", "docs/statistics.md"],
 };
 
-/** As nodes. What comes out of a file goes past this, into text nodes. linked: symbols lead to their line in the table of symbols. */
+/** Converts a text with markup to nodes. Texts from a file must not pass through it; they become text nodes. linked: symbols link to the table of symbols. */
 function rich(text, linked = false) {
   const nodes = [];
   let end = 0;
@@ -97,19 +97,19 @@ function rich(text, linked = false) {
   return nodes;
 }
 
-/** What a message names: `hardness` is an option and a key of the study file. */
+/** Shows names in backquotes, such as `hardness`, as code. */
 const coded = (text) => text.split("`").map((part, i) => (i % 2 ? h("code", {}, part) : part));
 
-/** What a file names, for plotly, which reads some HTML. */
+/** Escapes a text from a file for plotly, which interprets some HTML. */
 const escaped = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
 
 const plotText = (text) => escaped(text).replace(MARKS, (_, italic, sub, sup) =>
   italic !== undefined ? `<i>${italic}</i>` : sub !== undefined ? `<sub>${sub}</sub>` : `<sup>${sup}</sup>`);
 
-/** Without the marks, for screen readers and files. */
+/** Removes the markup, for screen readers and files. */
 const plainText = (text) => text.replace(MARKS, (_, italic, sub, sup) => italic ?? sub ?? sup);
 
-/** An element; children are nodes or text, lists of them, or null. */
+/** Creates an element; children are nodes or text, lists of them, or null. */
 function h(tag, properties, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties ?? {})) {
@@ -121,7 +121,7 @@ function h(tag, properties, ...children) {
   return element;
 }
 
-/** A table of columns [{label, unit, values}], numbers read in the unit that suits their column. */
+/** A table of columns [{label, unit, values}]; each column of numbers gets a suitable SI prefix. */
 function table(caption, columns, rowLabel) {
   const scales = columns.map((c) => c.unit === undefined ? null : scaleFor(c.values, c.unit));
   const heads = columns.map((c, i) => h("th", {scope: "col"}, rich(c.label), scales[i]?.label ? ` (${scales[i].label})` : ""));
@@ -134,7 +134,7 @@ function table(caption, columns, rowLabel) {
     h("table", {}, h("caption", {}, rich(caption)), h("thead", {}, h("tr", {}, heads)), h("tbody", {}, rows)));
 }
 
-/** RFC 4180: a header of key_unit, then numbers in SI units with a point; empty where unknown. */
+/** CSV text by RFC 4180: headers key_unit, then numbers in SI units with a decimal point; unknown values are empty. */
 function csv(columns) {
   const cell = (value) => value === null || value === undefined || Number.isNaN(value) ? ""
     : typeof value === "number" ? String(value) : /[",\r\n]/.test(value) ? `"${value.replace(/"/g, '""')}"` : value;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page: conclusion first, then section by section what it rests on.
+// The page: first the results, then the sections on which they are based.
 "use strict";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 
-/** A section with its heading; build() fills it. What the file lacks is named in its place. */
+/** Creates a section with its heading; build() fills it. */
 function section(parent, id, title, intro, build) {
   const body = h("div", {class: "figures"});
   const element = h("section", {id, "aria-labelledby": `${id}-heading`}, h("h2", {id: `${id}-heading`}, title), intro ? h("p", {class: "intro"}, rich(intro)) : null, body);
@@ -13,15 +13,15 @@ function section(parent, id, title, intro, build) {
   return element;
 }
 
-const absent = (what) => h("p", {class: "absent"}, `This results file does not hold ${what}; a newer salebra study writes it.`);
+const absent = (what) => h("p", {class: "absent"}, `This results file does not contain ${what}; a study by a newer salebra does.`);
 
 const finding = (title, value, details, doubt) => h("div", {class: doubt ? "finding doubt" : "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), details.filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))));
 
-/** Verdict, force law, and the damping constant at the load chosen. */
+/** Verdict, regime, force law, and the damping constant at the chosen load. */
 function cards(point) {
   const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
-  if (point.validity) found.push(finding("Validity", point.validity, ["the verdicts stand below, worst first"], doubt));
-  if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the load chosen"], point.solution.regime[shownLoad(point)] === "sliding"));
+  if (point.validity) found.push(finding("Validity", point.validity, ["assumptions below, worst first"], doubt));
+  if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the chosen load"], point.solution.regime[shownLoad(point)] === "sliding"));
   if (known(fit?.decay_length?.mean)) {
     const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
     found.push(finding(fit.fair === 0 ? "Force law ‹F› ∝ exp(−‹ū›/‹l›), a poor description" : "Force law ‹F› ∝ exp(−‹ū›/‹l›)", `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`,
@@ -30,7 +30,7 @@ function cards(point) {
     found.push(absent("a fitted force law"));
   }
   const adhesion = point.adhesion, pull = adhesion?.pull_off_pressure, work = adhesion?.adhesion_work_per_cycle;
-  if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)}, ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} by its steps`]));
+  if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)} ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} (error of its steps)`]));
   if (!damping) return found;
   const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
   const shown = slip ? point.solution.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
@@ -43,18 +43,18 @@ function cards(point) {
   return found;
 }
 
-/** Whether F ∝ exp(−ū/l) holds, in a sentence. */
+/** States whether F ∝ exp(−ū/l) holds. */
 function lawVerdict(point) {
   const fit = point.fit?.models?.bem, bend = fit?.law_bend;
   const closest = fit?.decay_length_at_min_gap_over_rms_height?.mean, farthest = fit?.decay_length_at_max_gap_over_rms_height?.mean;
   if (!known(fit?.fair)) return null;
-  // Where the parabola of the fit turns, the law is infinitely far off, which the file has as null.
+  // If the parabola of the fit has its turning point in the window, the deviation is infinite; the file stores null.
   const [offClosest, offFarthest] =
       [fit.law_off_at_min_gap, fit.law_off_at_max_gap].map((off) => off ?? Infinity);
-  const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
+  const run = `Over the fitted window the local ‹l› varies from ${number(closest, 2)} (smallest gap) to ${number(farthest, 2)} ‹h›_{rms} (largest gap)`;
   const size = bend ? `, a change of ${percent(bend.mean)}` + (known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
-  const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offClosest)} (smallest gap) and ${
-      percent(offFarthest)} (largest gap) at the ends of the window.`;
+  const ends = `At the ends of the window ‹F›/‹l›² deviates from ‹F›″ by ${percent(offClosest)} (smallest gap) and ${
+      percent(offFarthest)} (largest gap).`;
   return {
     poor: !fit.fair,
     text: `${run}${size}. ${ends}` + (fit.fair ? '' : ' Do not use Eq. (16) here.')
@@ -63,7 +63,7 @@ function lawVerdict(point) {
 
 function conclusion(main, point) {
   const damping = point.damping;
-  section(main, "conclusion", "What came out", null, (body, element) => {
+  section(main, "conclusion", "Results", null, (body, element) => {
     body.className = "findings";
     const fill = () => body.replaceChildren(...cards(point));
     onLoad.push(fill);
@@ -71,8 +71,8 @@ function conclusion(main, point) {
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
     if (point.verdicts) {
-      element.append(h("p", {class: "verdict"}, h("strong", {}, "Conditions of the damping constant. ")));
-      element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.verdicts.replaceAll("`", "")));
+      element.append(h("p", {class: "verdict"}, h("strong", {}, "Assumptions of the damping constant. ")));
+      element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Assumptions"}, point.verdicts.replaceAll("`", "")));
     }
     if (damping) {
       const {excursion, friction_coefficient: friction} = point.assumptions ? studiedMotion(point) : {}, motion = describeMotion(damping);
@@ -81,7 +81,7 @@ function conclusion(main, point) {
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
-      h("h3", {}, warnings.length ? "Notes" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, coded(text)))) : h("p", {}, "The study raised none.")));
+      h("h3", {}, warnings.length ? "Warnings" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, coded(text)))) : h("p", {}, "The study gave no warnings.")));
   });
 }
 
@@ -93,16 +93,16 @@ function warningsOf(point) {
   const computed = point.damping?.curve?.damping_constant?.bem;
   const unstated = (computed?.error ?? []).filter((error, i) => known(error) && !known(computed.mean[i])).length;
   if (unstated)
-    warnings.push(`No damping constant at ${unstated} of ${point.pressure.length} pressures: the error is larger than the number, because too few cells touch and part in the oscillation; a finer grid or \`relative_error\` may help.`);
+    warnings.push(`No damping constant at ${unstated} of ${point.pressure.length} pressures: the error is larger than the number, because too few cells open and close in the oscillation; a finer grid or \`relative_error\` may help.`);
   const least = point.damping?.deviation_min, greatest = point.damping?.deviation_max;
   const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
   if (Math.max(Math.abs(least), Math.abs(greatest)) > 0.1)
-    warnings.push(`${law} with the fitted decay length is between ${percent(least)} and ${percent(greatest)} off the damping constant computed.`);
+    warnings.push(`${law} with the fitted decay length deviates from the computed damping constant by ${percent(least)} to ${percent(greatest)}.`);
   return warnings;
 }
 
 const STATISTICS = {rms_height: "rms height ‹h›_{rms}", rms_slope: "rms slope ‹h›′", skewness: "skewness", kurtosis: "kurtosis (Gaussian: 3)", nayak: "Nayak’s α = ‹m›_{0}‹m›_{4}/‹m›_{2}^{2}",
-  moment0: "spectral moment ‹m›_{0}", moment2: "‹m›_{2}, of a profile", moment4: "‹m›_{4}, of a profile", summit_density: "summits per area", mean_radius: "mean radius of summits", summit_rms: "rms of summit heights"};
+  moment0: "spectral moment ‹m›_{0}", moment2: "profile moment ‹m›_{2}", moment4: "profile moment ‹m›_{4}", summit_density: "summits per area", mean_radius: "mean radius of summits", summit_rms: "rms of summit heights"};
 
 function surfaceTable(point) {
   const statistics = point.surface?.statistics;
@@ -114,7 +114,7 @@ function surfaceTable(point) {
     h("tbody", {}, statistics.map((s) => h("tr", {}, h("th", {scope: "row"}, rich(STATISTICS[s.name] ?? s.title)), h("td", {class: "number"}, quantity(s.mean, s.unit)), many ? h("td", {class: "number"}, interval(s, s.unit) || "–") : null)))));
 }
 
-/** Between the two times that the file holds, which are in whole seconds. */
+/** The time between the two times in the file, which are in whole seconds. */
 function runTime({started, created}) {
   const seconds = (Date.parse(created) - Date.parse(started)) / 1000;
   if (!(seconds >= 0)) return null;
@@ -127,19 +127,19 @@ function settings(main, point) {
     body.className = "";
     const provenance = data.provenance ?? {}, surface = point.surface ?? {};
     const seeds = (surface.seed ?? []).filter((s) => s !== 0);
-    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time of the command", runTime(provenance)],
+    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Created", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time of the command", runTime(provenance)],
       ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
       ["Libraries", provenance.libraries], ["Surface", point.picture?.origin?.replace(/(rolloff|short_cutoff|rms_height)=([-+.\de]+)/g, (_, name, value) => `${name} = ${quantity(Number(value), "m")},`).replace(/,$/, "")], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));
-    if (provenance.configuration?.trim()) body.append(h("details", {}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
+    if (provenance.configuration?.trim()) body.append(h("details", {}, h("summary", {}, "Configuration as read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
   });
 }
 
-/** What the letters mean, and what to cite. */
+/** The table of symbols, the equations, and how to cite. */
 function symbolsAndCitation(main) {
   section(main, "symbols", "Symbols and citation", null, (body) => {
     body.className = "";
-    body.append(h("div", {class: "scroll card", tabindex: "0", role: "region", "aria-label": "Symbols"}, h("table", {}, h("caption", {}, "Symbols, and the page of salebra's documentation that defines each"),
+    body.append(h("div", {class: "scroll card", tabindex: "0", role: "region", "aria-label": "Symbols"}, h("table", {}, h("caption", {}, "Symbols, and the pages of salebra's documentation that define them"),
       h("thead", {}, h("tr", {}, ["symbol", "meaning", "unit", "page"].map((text) => h("th", {scope: "col"}, text)))),
       h("tbody", {}, Object.entries(SYMBOLS).map(([letter, [meaning, unit, page]]) => h("tr", {id: `symbol-${letter}`}, h("th", {scope: "row"}, h("i", {}, letter)), h("td", {}, rich(meaning)), h("td", {}, unit), h("td", {}, h("code", {}, page))))))));
     const slow = "(‹G›*/‹E›*) ‹F›″ ‹u›_{z}";
@@ -150,7 +150,7 @@ function symbolsAndCitation(main) {
   });
 }
 
-/** 1 … 8 for a run of seeds, else the list, cut where it is long. */
+/** Formats consecutive seeds as 1 … 8 (8), others as a list of at most 40. */
 function seedText(seeds) {
   if (seeds.length > 2 && seeds.every((s, i) => s === seeds[0] + i)) return `${seeds[0]} … ${seeds.at(-1)} (${seeds.length})`;
   return seeds.slice(0, 40).join(", ") + (seeds.length > 40 ? ` … (${seeds.length})` : "");
@@ -158,12 +158,12 @@ function seedText(seeds) {
 
 function heading(point) {
   const surface = point.surface ?? {}, count = surface.realisations ?? 1;
-  // A measured surface has no seed, and its file says more than any heading.
+  // A measured surface has no seed; the name of its file is the best heading.
   const file = count === 1 && !surface.seed?.[0] ? point.picture?.origin?.split("/").at(-1) : "";
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
-  const sections = {conclusion: "Conclusion", ...(point.assumptions ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  const sections = {conclusion: "Results", ...(point.assumptions ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
   document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
@@ -183,7 +183,7 @@ function show(index) {
   }
   conclusion(main, point);
   if (point.assumptions && point.damping && lawOf(point))
-    section(main, "explorer", "Another motion", "What this contact loses in a motion that you set, recomputed here from the mean curve of the study by the formulas of the program.", (body) => explorer(body, point));
+    section(main, "explorer", "Another motion", "Enter a motion to see its loss in this contact. The page computes it from the mean curve of the study, by the formulas of the program.", (body) => explorer(body, point));
   section(main, "surface", "The surface", null, (body) => {
     if (point.picture) {
       heightMap(body, point);
@@ -210,7 +210,7 @@ function show(index) {
     else body.append(absent("a contact map"));
     spotsFigure(body, point);
   });
-  section(main, "models", "Models side by side", "Boundary elements and Greenwood–Williamson’s summits on the same surfaces, with closed theories.", (body, element) => {
+  section(main, "models", "Models side by side", "Boundary elements and Greenwood–Williamson models on the same surfaces, and theories in closed form.", (body, element) => {
     const summary = modelTable(point);
     if (summary) element.insertBefore(summary, body);
     modelFigures(body, point);
@@ -220,13 +220,13 @@ function show(index) {
     dampingFigure(body, point);
     dampingRatioFigure(body, point);
   });
-  if (point.convergence) section(main, "ensemble", "How many surfaces", null, (body) => convergenceFigure(body, point));
+  if (point.convergence) section(main, "ensemble", "Number of surfaces", null, (body) => convergenceFigure(body, point));
   symbolsAndCitation(main);
   settings(main, point);
   redrawAll();
 }
 
 document.getElementById("foot").append(h("p", {}, "Popov, Popov, Pohrt: ", h("i", {}, "Relaxation damping in oscillating contacts"), ", Sci. Rep. 5, 16189 (2015), ", h("a", {href: "https://doi.org/10.1038/srep16189", rel: "noreferrer"}, "doi:10.1038/srep16189"),
-  ". Drawn with plotly.js, MIT licence. This page loads nothing from anywhere."));
+  ". Drawn with plotly.js, MIT licence. This page loads nothing from the network."));
 if (typeof Plotly === "undefined") throw new Error("plotly.js is not in this page");
 show(0);

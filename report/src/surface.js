@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of the surface and of where it touches.
+// Figures of the surface and of its contact.
 "use strict";
 
 const MAP_NOTE = (picture) => picture.stride > 1 ? ` Every ${number(picture.stride)}th point along either axis is shown.` : "";
 
-/** Axes of a map: position along x and y, a metre as long along both. */
+/** Axes of a map: position along x and y, with equal scales. */
 function mapAxes(picture) {
   const x = Array.from({length: picture.nx}, (_, i) => i * picture.step_x);
   const y = Array.from({length: picture.ny}, (_, i) => i * picture.step_y);
@@ -41,7 +41,7 @@ function heightMap(parent, point) {
   addFigure(parent, {
     id: "height-map", title: "Heights", axes: place.axes, height: mapHeight(),
     alt: () => `Map of the heights of ${which}, ${quantity(point.surface?.size_x, "m")} by ${quantity(point.surface?.size_y, "m")}: from ${quantity(at(0), "m", 3)} to ${quantity(at(1), "m", 3)} about the mean, half of the points between ${quantity(at(0.25), "m", 3)} and ${quantity(at(0.75), "m", 3)}.`,
-    caption: `Height of ${which} above its mean; hills are bright. One point in a thousand lies above the colours, up to ${quantity(at(1), "m", 3)}, and one below them, down to ${quantity(at(0), "m", 3)}.${MAP_NOTE(picture)}`,
+    caption: `Height of ${which} above its mean; hills are bright. One point in a thousand is above the colour scale, up to ${quantity(at(1), "m", 3)}, and one in a thousand below it, down to ${quantity(at(0), "m", 3)}.${MAP_NOTE(picture)}`,
     columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: "height", key: "height", unit: "m", values: shares.map((s) => Number(at(s).toPrecision(7))), digits: 3}],
     csv: () => mapColumns(picture, place, "height", "m", Array.from(heights, (v) => Number(v.toPrecision(7)))),
     plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z, colorscale: "Viridis", zmin: at(0.001) * scale.factor, zmax: at(0.999) * scale.factor,
@@ -53,18 +53,18 @@ function heightMap(parent, point) {
 function spectrumFigure(parent, point) {
   const picture = point.picture;
   const hurst = known(picture.hurst)
-    ? `The power law that the spectrum itself shows has ‹H› = ${number(picture.hurst, 3)} (95 %: ${number(picture.hurst_low, 3)} … ${number(picture.hurst_high, 3)}).`
+    ? `A power law fitted to this spectrum has ‹H› = ${number(picture.hurst, 3)} (95 %: ${number(picture.hurst_low, 3)} … ${number(picture.hurst_high, 3)}).`
     : "The spectrum shows no self-affine range.";
-  const law = picture.law === "asked for" ? "law asked for" : "fitted power law, ‹C› ∝ ‹q›^{−2(1+H)}";
+  const law = picture.law === "asked for" ? "requested law" : "fitted power law, ‹C› ∝ ‹q›^{−2(1+H)}";
   addFigure(parent, {
     id: "spectrum", title: "Power spectral density",
     alt: () => `Power spectral density against wave number, both logarithmic, from ${number(Math.min(...picture.wavenumber), 3)} to ${number(Math.max(...picture.wavenumber), 3)} rad/m. ${plainText(hurst)}`,
-    caption: `‹C›(‹q›), mean over rings of wave vectors; ‹h›_{rms}² is its integral over the plane. ${hurst} Wavelengths are 2π/‹q›.`,
+    caption: `‹C›(‹q›), averaged over rings of wave vectors; its integral over the plane of wave vectors is ‹h›_{rms}². ${hurst} Wavelengths are 2π/‹q›.`,
     axes: {x: {label: "wave number ‹q›", short: "‹q›", unit: "rad/m", log: true}, y: {label: "‹C›", unit: "m^4", log: true}},
     columns: () => [{label: "wave number", key: "wavenumber", unit: "rad/m", values: picture.wavenumber}, {label: "‹C›", key: "psd", unit: "m^4", values: picture.psd},
-      {label: picture.law === "asked for" ? "‹C› asked for" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_psd}],
+      {label: picture.law === "asked for" ? "requested ‹C›" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_psd}],
     plot: () => {
-      // Beyond the shortest wave there is nothing but rounding.
+      // Beyond the shortest wave the spectrum is only round-off.
       const seen = picture.psd.map((_, i) => i).filter((i) => picture.psd[i] > Math.max(...picture.psd) * 1e-13);
       return {series: [
         {label: "this surface", x: seen.map((i) => picture.wavenumber[i]), y: seen.map((i) => picture.psd[i]), mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 5, color: color("blue")},
@@ -83,8 +83,8 @@ function distributionFigure(parent, point) {
   const gauss = picture.height.map((z) => Math.exp(-((z / rms) ** 2) / 2) / (rms * Math.sqrt(2 * Math.PI)));
   addFigure(parent, {
     id: "distribution", title: "Distribution of heights",
-    alt: () => `Histogram of the heights beside a Gaussian of the same rms height, ${quantity(rms, "m", 3)}.`,
-    caption: "Share of the points for each height, beside a Gaussian of the same rms height. Contact is made by the upper tail: the right end decides, best seen with a logarithmic axis.",
+    alt: () => `Histogram of the heights, compared with a Gaussian of the same rms height, ${quantity(rms, "m", 3)}.`,
+    caption: "Density of the points over their height, compared with a Gaussian of the same rms height. Only the highest points make contact, so the right end matters most; a logarithmic axis shows it best.",
     axes: {x: {label: "height above the mean", unit: "m", fixed: true}, y: {label: "density", unit: "1/m", log: false}},
     columns: () => [{label: "height", key: "height", unit: "m", values: picture.height}, {label: "density", key: "density", unit: "1/m", values: picture.height_density}, {label: "Gaussian", key: "gaussian", unit: "1/m", values: gauss}],
     plot: ({state}) => ({series: [
@@ -95,9 +95,9 @@ function distributionFigure(parent, point) {
   });
 }
 
-// One load for the cards, the profile, the contact map and the explorer: the reader's, else that of the maps of the file, or in the middle.
+// The load of the cards, the profile, the contact map and the explorer: chosen by the reader, or else that of the maps in the file, or else the middle one.
 let chosenLoad = null;
-const onLoad = [];  // what follows it
+const onLoad = [];  // functions to call when it changes
 const shownLoad = (point) => chosenLoad ?? point.picture?.mapped_load ?? Math.floor(point.pressure.length / 2);
 
 function chooseLoad(load) {
@@ -112,10 +112,10 @@ function loadChooser(point, id) {
     point.pressure.map((p, i) => h("option", {value: i, selected: i === shownLoad(point)}, quantity(p, "Pa", 3) + (known(area) ? `, ${quantity(p * area, "N", 3)}` : "")))));
 }
 
-/** Of the maps and the profile, where a study has several surfaces. */
+/** Names the surface of the maps and the profile, if a study has several. */
 const ofSurface = (point) => (point.surface?.realisations > 1 ? " of the first surface" : "");
 
-/** Heights along the line through the middle, and where that line touches at the load of the maps. */
+/** Heights along the line through the middle, and the points on it that touch at the chosen load. */
 function profileFigure(parent, point) {
   const picture = point.picture, place = mapAxes(picture), row = Math.floor(picture.ny / 2);
   const heights = decoded(picture.heights, Float32Array);
@@ -128,7 +128,7 @@ function profileFigure(parent, point) {
   const figure = addFigure(parent, {
     id: "profile", title: "Profile",
     alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching().filter(known).length} of ${line.length} points touch at ${pressed()}.`,
-    caption: () => `Heights${ofSurface(point)} along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${pressed()}.`,
+    caption: () => `Heights${ofSurface(point)} along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is drawn as long as ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marked points touch at ${pressed()}.`,
     axes: {x: {label: "‹x›", unit: "m", fixed: true}, y: {label: "height above the mean", unit: "m", fixed: true}},
     columns: () => [{label: "‹x›", key: "x", unit: "m", values: place.x.map((v) => Number(v.toPrecision(7)))}, {label: "height", key: "height", unit: "m", values: line}],
     plot: () => ({series: [{label: "surface", x: place.x, y: line, mode: "lines", line: {color: color("blue"), width: 1.5}, text: line.map((z, i) => `height ${quantity(z, "m", 3)}<br>at <i>x</i> = ${quantity(place.x[i], "m", 3)}`)},
@@ -137,7 +137,7 @@ function profileFigure(parent, point) {
   onLoad.push(figure.redraw);
 }
 
-/** Which points touch, load by load: contacts of growing load are nested, so that one map holds them all. */
+/** The points that touch at each load. A contact at a higher load contains those at lower loads, so one map of first touches holds all loads. */
 function contactMap(parent, point) {
   const picture = point.picture, place = mapAxes(picture), pressures = point.pressure;
   const loads = decoded(picture.first_load, Int16Array);
@@ -165,7 +165,7 @@ function contactMap(parent, point) {
     id: "contact-map", title: "Contact map", axes: place.axes, height: mapHeight(),
     controls: h("label", {class: "slider", for: "contact-load"}, "Pressure ", slider, " ", output),
     alt: () => `Map of the points in contact. At ${words()}; at ${quantity(pressures[0], "Pa", 3)} it is ${number(100 * shares[0], 3)} %, at ${quantity(pressures.at(-1), "Pa", 3)} ${number(100 * shares.at(-1), 3)} %.`,
-    caption: `Points${ofSurface(point)} in contact at the pressure chosen, by boundary elements; dark ones touched first. Contacts of growing pressure contain each other, which is what the damping without slip rests on.${MAP_NOTE(picture)}`,
+    caption: `Points${ofSurface(point)} in contact at the chosen pressure, by boundary elements; the colour shows the pressure of first touch. A contact at a higher pressure contains those at lower pressures; the damping without slip relies on this.${MAP_NOTE(picture)}`,
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: pressures}, {label: "share of the points in contact", key: "share", unit: "1", values: shares}],
     csv: () => mapColumns(picture, place, "first_pressure", "Pa", Array.from(loads, (load) => (load < 0 ? null : pressures[load]))),
     plot: () => {
@@ -180,7 +180,7 @@ function contactMap(parent, point) {
   });
 }
 
-/** A map of the state at one load in the middle of the curve, where it is not 0: "contact_pressure" or "gap". */
+/** A map of "contact_pressure" or "gap" at the load that the file stores; blank where the value is 0. */
 function stateMap(parent, point, {key, id, title, unit, clip, colorscale, blank, caption}) {
   const picture = point.picture, place = mapAxes(picture), step = picture[`max_${key}`] / 32767;
   const values = Array.from(decoded(picture[key], Int16Array), (v) => (key === "gap" || v > 0 ? v * step : null));
@@ -202,12 +202,12 @@ function stateMap(parent, point, {key, id, title, unit, clip, colorscale, blank,
 
 function pressureMap(parent, point) {
   stateMap(parent, point, {key: "contact_pressure", id: "pressure-map", title: "Contact pressure", unit: "Pa", clip: 0.99, colorscale: "Viridis",
-    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, the load at which the file holds it, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
+    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, the only load stored in the file, by boundary elements; points without contact are blank. The highest pressures depend on the size of the cells.`});
 }
 
 function gapMap(parent, point) {
   stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: [[0, "#08306b"], [0.5, "#4292c6"], [1, "#f2f8ff"]], blank: "#8d8579",
-    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, the load at which the file holds it, by boundary elements. Points in contact are grey; dark blue is narrow, light is wide.`});
+    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, the only load stored in the file, by boundary elements. Points in contact are grey; dark blue is a narrow gap, light blue a wide one.`});
 }
 
 /** Number and size of the contact spots. */
@@ -219,7 +219,7 @@ function spotsFigure(parent, point) {
   addFigure(parent, {
     id: "spots", title: "Contact spots", height: mapHeight(),
     alt: () => `Number of contact spots and their areas against pressure: ${number(count.mean[0], 3)} spots at ${quantity(point.pressure[0], "Pa", 3)}, at most ${number(Math.max(...count.mean.filter(known)), 3)}, ${number(count.mean[last], 3)} at ${quantity(point.pressure[last], "Pa", 3)}.`,
-    caption: "Contact spots, by boundary elements, each of neighbouring points in contact: how many there are, above, and how large, below. A law of statistics needs many of them.",
+    caption: "Contact spots by boundary elements; a spot consists of neighbouring points in contact. The upper panel shows the number of spots, the lower panel their areas. Statistical laws need many spots.",
     axes: {x: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: true}, y: {label: "spots", unit: "1", log: true, layout: {domain: [0.55, 1]}}, y2: {label: "area", unit: "m^2", log: true, layout: {domain: [0, 0.45]}}},
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, ...estimateColumns("spots", "spot_count", "1", count), ...sizes.flatMap(([key, label]) => estimateColumns(`${label} area`, key, "m^2", spots[key]))],
     plot: () => ({axes: {xaxis: {anchor: "y2"}}, series: [

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The law of a contact and its operating points, from what the caller knows.
+// The law of a contact and its operating points, from a formula, an indenter, a force curve or a
+// surface.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,8 +58,9 @@ std::vector<OperatingPoint> at_indentations(const std::vector<double>& values) {
   return points;
 }
 
-/// Throws InvalidInput in the quantity that was given, before it becomes the force or the
-/// indentation that the law knows.
+/// Throws InvalidInput for a value outside the range of the curve. The message names the control
+/// quantity that the user gave (such as a pressure), since the value is later converted to a force
+/// or an indentation.
 void require_on_curve(const OperatingPoints& at, const ForceCurve& curve) {
   const Dimension dimension = dimension_of(at.control);
   const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.control)));
@@ -87,15 +89,15 @@ std::vector<OperatingPoint> points_on(const ForceCurve& curve, const OperatingPo
   }
   const ForceSample& any = curve.samples.front();
   require(!std::isnan(any.mean_gap), name_of(at.control), source,
-          "has no mean gap; give another operating point");
+          "has no mean gap; give a pressure, a force or an indentation");
   const double origin = std::isnan(any.indentation) ? 0 : any.indentation + any.mean_gap;
   for (double& value : values) value = origin - value;
   return at_indentations(values);
 }
 
-/// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E*
-/// to the last digits, or, where each K_t is a stick solve of its own, to some per cent and nowhere
-/// the same.
+/// Warns if the ratio G*/E* of the given moduli does not fit the ratio K_t/K of the curve. If the
+/// curve took K_t as (G*/E*)K, its K_t/K is its G*/E* to the last digits. If each K_t comes from a
+/// stick solve, K_t/K agrees with G*/E* to some per cent and differs from load to load.
 std::vector<std::string> warnings_of_moduli(const ForceCurve& curve, double modulus_ratio) {
   std::vector<double> ratios;
   for (const ForceSample& sample : curve.samples) {
@@ -107,13 +109,13 @@ std::vector<std::string> warnings_of_moduli(const ForceCurve& curve, double modu
   const double tolerance = high - low > 1e-6 * high ? 0.1 : 1e-3;
   if (modulus_ratio > (1 - tolerance) * low && modulus_ratio < (1 + tolerance) * high) return {};
   return {
-      fmt::format("G*/E* = {:.4g} of `poisson` or `tangential_modulus`, and K_t/K = {:.4g} in the "
-                  "curve's file; give the material that the curve was computed with",
+      fmt::format("`poisson` or `tangential_modulus` gives G*/E* = {:.4g}, but the file of the "
+                  "curve has K_t/K = {:.4g}; give the material with which the curve was computed",
                   modulus_ratio, low)};
 }
 
-/// Pressures about those that are asked for, which are among them: from a sixth to six times, close
-/// enough for a smooth law.
+/// The requested pressures and further ones around each, from a sixth to six times it. They are
+/// close enough for a smooth law through the contacts.
 std::vector<double> pressures_about(std::vector<double> asked) {
   constexpr double factor = 1.35;
   std::ranges::sort(asked);
@@ -152,7 +154,8 @@ std::unique_ptr<const ContactLaw> law(const ExponentialContact& body, const Cont
                    context);
 }
 
-/// The assumptions know an indenter by its type, hence its profile looks whether to stop.
+/// The assumptions recognise an indenter by the class of its law, so the law is not wrapped. Its
+/// profile checks whether the user asked to stop.
 std::unique_ptr<const ContactLaw> law(const IndenterContact& body, const Context& context) {
   return std::make_unique<IndenterLaw>(stoppable(body.profile, context), body.material);
 }
@@ -162,9 +165,9 @@ std::unique_ptr<const ContactLaw> law(const CurveContact& body, const Context& c
 }
 
 std::unique_ptr<const ContactLaw> law(const SurfaceContact&, const Context&) {
-  throw InvalidInput("surface",
-                     "has no law for a path of indentations; sweep it and give its "
-                     "`curve`");
+  throw InvalidInput(
+      "surface",
+      "has no law for a path of indentations; compute its force curve and give it as `curve`");
 }
 
 ContactSolution solution(ExponentialContact body, const Context& context) {
@@ -224,7 +227,7 @@ std::size_t ContactSolution::load() const {
 }
 
 ContactParameters ContactSolution::parameters_at(ContactParameters parameters, double indentation,
-                                       double deepest) const {
+                                                 double deepest) const {
   parameters = at_state(parameters, *law, curve ? &*curve : nullptr, indentation, deepest);
   if (first_loading && first_loading->yielded())
     parameters.first_load = first_loading->pressure * curve->nominal_area;
@@ -232,12 +235,16 @@ ContactParameters ContactSolution::parameters_at(ContactParameters parameters, d
 }
 
 Assumptions ContactSolution::assumptions_beside_slip(double indentation, const Oscillation& motion,
-                                               const ContactParameters& known) const {
+                                                     const ContactParameters& known) const {
   const double deepest = indentation + detail::normal_amplitude(motion);
-  Assumptions assumptions = assumptions_of(*law, indentation, motion, parameters_at(known, indentation, deepest));
-  // What slides on does not turn back, and the loss is that at its amplitude.
-  for (const auto assumption : {&Assumptions::slip_of_opening_springs, &Assumptions::slip_of_closed_springs,
-                             &Assumptions::slow_motion, &Assumptions::amplitude})
+  Assumptions assumptions =
+      assumptions_of(*law, indentation, motion, parameters_at(known, indentation, deepest));
+  // Sets four assumptions to `holds`, because they do not apply where slip is computed: both
+  // assumptions on slip, the one on slow motion (there are no turning points), and the one on small
+  // amplitudes (the loss is that at finite amplitude).
+  for (const auto assumption :
+       {&Assumptions::slip_of_opening_springs, &Assumptions::slip_of_closed_springs,
+        &Assumptions::slow_motion, &Assumptions::amplitude})
     assumptions.*assumption = {.verdict = Verdict::holds};
   assumptions.largest.clear();
   return assumptions;
@@ -285,20 +292,21 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
   return residual.first_loading;
 }
 
-std::vector<std::string> warnings_of_profile(const IndenterProfile& profile, double contact_radius) {
+std::vector<std::string> warnings_of_profile(const IndenterProfile& profile,
+                                             double contact_radius) {
   constexpr double max_change = 0.05, max_radius = 1;
   const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
   if (table == nullptr) return {};
   std::vector<std::string> warnings;
   if (table->max_radius() > max_radius)
-    warnings.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
-                                 format_quantity(table->max_radius(), Dimension::length)));
+    warnings.push_back(fmt::format("the table has radii up to {}; check the unit: a table is in m",
+                                   format_quantity(table->max_radius(), Dimension::length)));
   const double change = table->image_error(contact_radius);
   if (change > max_change)
-    warnings.push_back(fmt::format(
-        "the table is coarse: without every other point the indentation at the contact radius {} "
-        "changes by {:.2g} %; sample it more finely",
-        format_quantity(contact_radius, Dimension::length), 100 * change));
+    warnings.push_back(
+        fmt::format("the table is coarse: without every other point the indentation at the contact "
+                    "radius {} changes by {:.2g} %; give more points",
+                    format_quantity(contact_radius, Dimension::length), 100 * change));
   return warnings;
 }
 

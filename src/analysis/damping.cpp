@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Losses of contacts in motions with a name, in measured ones, and as dampers, with their assumptions.
+// Losses of contacts under formula motions (equal frequencies, drag, two frequencies) and under
+// measured paths, and contacts as dampers, each with its assumptions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double not_known = ContactParameters::unknown;
 
-/// One of the cases.
 struct Case {
   OperatingPoint point;
   Motion motion;
@@ -37,7 +37,7 @@ std::vector<Case> cases_of(const std::vector<OperatingPoint>& points,
   for (const std::size_t size :
        {points.size(), problem.motions.size(), std::max<std::size_t>(1, forces.size())})
     require(size == 1 || size == count, "motions", problem.motions.size(),
-            fmt::format("must be one, or one for each of {} cases", count));
+            fmt::format("given; give one, or one for each of the {} cases", count));
   std::vector<Case> cases;
   for (std::size_t i = 0; i < count; ++i) {
     cases.push_back({at(points, i), at(problem.motions, i), {}});
@@ -52,7 +52,7 @@ DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOpt
         [&](const auto& motion) { return relaxation_damping(law, one.point, motion, options); },
         one.motion);
   require(one.point.load_given(), "force_amplitude", *one.force_amplitude,
-          "goes with a mean force; give `normal_force` or `pressure`");
+          "needs a mean force; give `normal_force` or `pressure`");
   return std::visit(
       [&](const auto& motion) {
         return relaxation_damping_force_controlled(law, one.point.value, *one.force_amplitude,
@@ -74,8 +74,8 @@ std::vector<DampingResult> results_of(const ContactLaw& law, const std::vector<C
   return results;
 }
 
-/// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential
-/// oscillation tends to.
+/// Power of a drag with the root-mean-square velocity of a tangential oscillation: the power of the
+/// oscillation in the limit of low tangential frequency.
 double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOptions& options) {
   const auto& motion = std::get<TwoFrequencies>(one.motion);
   const double velocity =
@@ -85,8 +85,9 @@ double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOpt
   return result_of(law, drag, options).power;
 }
 
-/// Small-amplitude form over the exact one. Without a common period the two are means, and the work
-/// is not known.
+/// The loss by the small-amplitude formula divided by the loss at finite amplitude. If the two
+/// frequencies have no common period, the loss per cycle is unknown, and this is the ratio of the
+/// mean powers.
 double small_over_exact(const DampingResult& result, const Motion& motion) {
   if (!std::isnan(result.work_per_cycle))
     return result.small_amplitude_work / result.work_per_cycle;
@@ -96,10 +97,10 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
          result.power;
 }
 
-/// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
-/// of it.
+/// Checks the assumptions of one case. If a force amplitude is given, the normal amplitude is the
+/// force amplitude divided by K.
 Assumptions assumptions_of_case(const ContactSolution& contact, const Case& one,
-                          const DampingResult& result, const ContactParameters& parameters) {
+                                const DampingResult& result, const ContactParameters& parameters) {
   Motion motion = one.motion;
   if (one.force_amplitude)
     std::visit(
@@ -115,7 +116,7 @@ Assumptions assumptions_of_case(const ContactSolution& contact, const Case& one,
       motion);
 }
 
-/// The place of a load, whose pressure came back with round-off.
+/// Index of the load whose pressure is closest to this one, which may differ from it by round-off.
 std::size_t place_of(const ForceCurve& curve, double pressure) {
   const auto nearest = std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
     return std::abs(sample.pressure - pressure);
@@ -123,7 +124,8 @@ std::size_t place_of(const ForceCurve& curve, double pressure) {
   return std::size_t(nearest - curve.samples.begin());
 }
 
-/// Each load with its neighbours, from which K_t/K has its slope.
+/// The loads with these pressures and, for each, the next lower and higher load, from which the
+/// change of K_t/K with the load follows.
 ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double>& pressures) {
   ForceCurve loads = all;
   loads.samples.clear();
@@ -136,8 +138,8 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
   return loads;
 }
 
-/// A surface is not interpolated between loads: contacts inside the oscillation give W and its
-/// error.
+/// Replaces the loss that the law of a surface gives by the loss from contacts solved inside the
+/// oscillation, which has a known error. The law would interpolate between loads.
 void resolve_on_surface(const DampingProblem& problem, const std::vector<double>& pressures,
                         const Material& material, const Context& context,
                         DampingSolution& solution) {
@@ -164,15 +166,17 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
       result.forget();
     else if (std::isnan(result.work_per_cycle))
       solution.warnings.push_back(
-          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
-                      "a study of the surface with a `relative_error` halves the cells further",
+          fmt::format("at {} there is no loss, because its error is larger than the loss; a study "
+                      "of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
   }
 }
 
-bool slips(const DamperProblem& problem) { return !std::isnan(problem.parameters.friction_coefficient); }
+bool slips(const DamperProblem& problem) {
+  return !std::isnan(problem.parameters.friction_coefficient);
+}
 
-/// Why γ of a damper with friction is not known; empty: it is.
+/// Returns why the damping constant of a damper with friction is unknown; empty if it is known.
 std::string why_unknown(const DamperProblem& problem, double angular_frequency) {
   if (slips(problem) && std::isnan(problem.drag_velocity))
     return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
@@ -180,7 +184,8 @@ std::string why_unknown(const DamperProblem& problem, double angular_frequency) 
   return why_loss_unknown(Drag{0, problem.drag_velocity, angular_frequency}, problem.parameters);
 }
 
-/// Returns the loss of a law about its mean indentation, whose γ without slip is known.
+/// Returns the loss with slip of a law about its mean indentation, if it is known. without_slip:
+/// its damping constant without slip.
 Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indentation,
              const Drag& drag, double without_slip) {
   Loss loss;
@@ -191,8 +196,8 @@ Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indenta
   return loss;
 }
 
-/// What a damper of a surface does: γ of each amplitude from contacts inside the oscillation, and
-/// what follows from it.
+/// A surface as a damper: its damping constant γ at each amplitude from contacts solved inside the
+/// oscillation, and the results that follow from γ (decay, amplitude of stable sliding).
 class SurfaceDamper {
  public:
   SurfaceDamper(const DamperProblem& problem, const Material& material, const Context& context,
@@ -210,7 +215,8 @@ class SurfaceDamper {
     about_.samples = {load};
   }
 
-  /// Without slip γω is a number of the amplitude alone, and is solved once.
+  /// Loss at an amplitude and an angular frequency ω. Without slip the product γω depends only on
+  /// the amplitude, so contacts are solved once for each amplitude.
   Loss at(double amplitude, double angular_frequency) {
     const bool known = why_unknown(problem_, angular_frequency).empty();
     if (slips(problem_) && known)
@@ -243,7 +249,8 @@ class SurfaceDamper {
       off.*number = std::abs(more.*number - found.*number);
   }
 
-  /// The amplitude of the law, corrected once by what γ is there, along the slope of the law.
+  /// Corrects the amplitude of stable sliding that the law gave, in one step: by γ of the surface
+  /// at this amplitude, and by the exponent with which γ of the law grows with the amplitude.
   void stabilise(double angular_frequency) {
     double& amplitude = solution_.stabilising_amplitude.back();
     const double by_law = amplitude;
@@ -262,13 +269,13 @@ class SurfaceDamper {
     amplitude *= std::pow(*problem_.falling_slope * angular_frequency / constant, 1 / exponent);
     const double off =
         std::hypot(amplitude * error / (constant * exponent), (amplitude - by_law) / 2);
-    if (!(exponent > 0) || !(off < amplitude) || amplitude > problem_.max_amplitude)
-      return lost();
+    if (!(exponent > 0) || !(off < amplitude) || amplitude > problem_.max_amplitude) return lost();
     solution_.stabilising_amplitude_error.push_back(off);
   }
 
  private:
-  /// γω: W is in proportion to v², and any velocity serves.
+  /// Loss without slip at ω = 1 rad/s, whose γ is γω of any frequency. The drag velocity is
+  /// arbitrary, since the loss is proportional to its square.
   Loss without_slip(double amplitude) {
     SurfaceDampingOptions options = options_;
     options.friction_coefficient = options.excursion = not_known;
@@ -279,14 +286,15 @@ class SurfaceDamper {
     return surface_damping(*solution_.contact.surface, material_, drag, about_, options)[0];
   }
 
-  /// Returns the loss, with its error, if the error is smaller.
+  /// Returns the loss if it exceeds its error. Otherwise adds a warning and returns an unknown
+  /// loss.
   Loss stated(Loss loss, double amplitude) {
     loss.drop_uncertain();
     if (!std::isnan(loss.damping_constant)) return loss;
-    solution_.warnings.push_back(fmt::format(
-        "the error of the damping constant under {} exceeds it, and neither is given; a finer "
-        "surface helps",
-        format_quantity(amplitude, Dimension::length)));
+    solution_.warnings.push_back(
+        fmt::format("at the amplitude {} there is no damping constant, because its error is larger "
+                    "than the constant; use a finer surface",
+                    format_quantity(amplitude, Dimension::length)));
     loss.forget();
     return loss;
   }
@@ -294,18 +302,18 @@ class SurfaceDamper {
   const DamperProblem& problem_;
   const Material& material_;
   DamperSolution& solution_;
-  ForceCurve about_;  // the load
+  ForceCurve about_;  // the curve with only the load of the operating point
   SurfaceDampingOptions options_;
   double solved_amplitude_ = not_known;
-  Loss solved_;  // at ω = 1, without slip
+  Loss solved_;  // loss without slip at ω = 1 rad/s and the amplitude solved_amplitude_
 };
 
 void require_motion_of_surface(const DampingProblem& problem) {
   require_that(problem.motions.size() == 1 && problem.force_amplitude.empty() &&
                    !std::holds_alternative<TwoFrequencies>(problem.motions.front()),
                "surface",
-               "takes one motion of equal frequencies or drag; give several `pressure`, or a "
-               "`curve`");
+               "takes one motion, drag or equal frequencies; give several values of `pressure`, or "
+               "a `curve`");
 }
 
 }  // namespace
@@ -329,7 +337,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   solution.results = results_of(law, cases, options, context);
   if (const auto warning = detail::warning_of_held_indentation(problem.hold, solution.results))
     solution.warnings.push_back(*warning);
-  std::string unknown;  // why, one line for all cases
+  std::string unknown;  // why the loss is unknown; the first reason found serves all cases
   if (surface) resolve_on_surface(problem, pressures, material, context, solution);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -344,20 +352,22 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     else if (!surface)
       add_slip(result, law, one.motion, problem.parameters, problem.steps, context);
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
-    solution.assumptions.push_back(assumptions_of_case(solution.contact, one, result, problem.parameters));
+    solution.assumptions.push_back(
+        assumptions_of_case(solution.contact, one, result, problem.parameters));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
       solution.periods.push_back(common_period(*two));
       solution.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
     const auto* drag = std::get_if<Drag>(&one.motion);
     if (drag == nullptr) continue;
-    if (const double distance = drag->distance_per_cycle(); problem.parameters.excursion >= distance)
-      solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.parameters.excursion /
-                                             distance);
+    if (const double distance = drag->distance_per_cycle();
+        problem.parameters.excursion >= distance)
+      solution.work_there_and_back.push_back(result.work_per_cycle * 2 *
+                                             problem.parameters.excursion / distance);
     if (!warnings.empty()) continue;
     const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
     warnings = warnings_of_path(drag->drag_velocity, drag->angular_frequency,
-                            spot_radius(problem.parameters, law, curve, result.indentation));
+                                spot_radius(problem.parameters, law, curve, result.indentation));
   }
   if (!unknown.empty()) warnings.insert(warnings.begin(), unknown);
   solution.warnings.insert(solution.warnings.end(), warnings.begin(), warnings.end());
@@ -388,14 +398,14 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
   const double friction = problem.parameters.friction_coefficient;
   const bool planar = !problem.transverse.empty();
   require(!planar || std::isnan(friction), "friction_coefficient", friction,
-          "cannot be combined with a trajectory in two directions, whose slip is not followed; "
+          "cannot be combined with a trajectory in two directions, for which slip is not computed; "
           "leave it out, or the fourth column");
   const auto [low, high] = std::ranges::minmax(problem.path.indentation);
-  // The exponential law counts indentations from its rest.
+  // An exponential law measures the indentation from the operating point, where it is 0.
   if (const auto* body = std::get_if<ExponentialContact>(&problem.contact))
     require(high <= detail::possible_amplitude(body->decay_length), "trajectory", high,
-            fmt::format("m is an indentation at which the force is more than {:g} times that at "
-                        "rest, up to which an exponential law holds; at most {}",
+            fmt::format("m is reached, where the force is more than {:g} times the force at rest; "
+                        "an exponential law allows at most {}",
                         detail::max_force_ratio,
                         format_quantity(detail::possible_amplitude(body->decay_length),
                                         Dimension::length, 3)));
@@ -404,10 +414,11 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
   PathSolution solution;
   solution.loss = planar ? trajectory_damping(*law, problem.path, problem.transverse)
                          : trajectory_damping(*law, problem.path, options);
-  solution.assumptions = assumptions_of(*law, problem.path,
-                                  at_state(problem.parameters, *law, nullptr, 0.5 * (low + high), high));
+  solution.assumptions = assumptions_of(
+      *law, problem.path, at_state(problem.parameters, *law, nullptr, 0.5 * (low + high), high));
   if (!planar) return solution;
-  // Slip is judged along x alone, where it is one of the vector.
+  // Slip is only judged for a motion along x. Here the motion has two directions, so the verdicts
+  // on slip are removed.
   Assumptions& judged = solution.assumptions;
   judged.slip_of_opening_springs = judged.slip_of_closed_springs = {};
   judged.largest.clear();
@@ -417,7 +428,8 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
 
 namespace {
 
-/// Puts γ of the surface, with friction that with slip, in the place of the law's without.
+/// Replaces γ in the map, which the law gave without slip: by γ of the surface if there is one, and
+/// by γ with slip if the coefficient of friction is known.
 void fill_map(const DamperProblem& problem, const std::vector<double>& indentations,
               std::optional<SurfaceDamper>& of_surface, DamperSolution& solution) {
   DamperMap& map = solution.map;
@@ -452,8 +464,8 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
   require(!problem.falling_slope || !slips(problem), "falling_slope",
           problem.falling_slope.value_or(0),
-          "N s/m is held against the damping without slip; leave out `friction_coefficient`, or "
-          "ask for steady sliding, where stability follows the slip");
+          "N s/m is compared with the damping without slip; leave out `friction_coefficient`, or "
+          "use steady sliding, whose stability includes slip");
   Material material;
   if (auto* surface = std::get_if<SurfaceContact>(&problem.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
@@ -463,7 +475,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   const ContactLaw& law = *solution.contact.law;
   require(solution.contact.points.size() == 1, "normal_force",
           fmt::format("{} operating points", solution.contact.points.size()),
-          "are given; a damper takes one");
+          "given; a damper takes one");
   const OperatingPoint& point = solution.contact.points.front();
   const DampingOptions options{
       .hold = problem.hold, .amplitude = problem.amplitude, .on_progress = context.on_progress};
@@ -477,8 +489,8 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     motion.drag_velocity = problem.drag_velocity;
     solution.assumptions.push_back(
         assumptions_of(law, indentations.back(), motion,
-                    solution.contact.parameters_at(problem.parameters, indentations.back(),
-                                              indentations.back() + amplitude)));
+                       solution.contact.parameters_at(problem.parameters, indentations.back(),
+                                                      indentations.back() + amplitude)));
   }
   if (const auto warning = detail::warning_of_held_indentation(problem.hold, rested))
     solution.warnings.push_back(*warning);
@@ -488,7 +500,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     solution.map = damper_map(law, point, amplitudes, omega, options);
   else
     require_that(problem.falling_slope.has_value(), "normal_amplitude",
-                 "missing; give it, or `falling_slope` to have it computed");
+                 "not given; give it, or give `falling_slope` to compute it");
   fill_map(problem, indentations, of_surface, solution);
   if (problem.oscillator) {
     require(one, "mass", problem.oscillator->mass,
@@ -510,12 +522,12 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
 }
 
 std::vector<std::string> warnings_of_path(double drag_velocity, double angular_frequency,
-                                        double spot_radius) {
+                                          double spot_radius) {
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
   if (!(path > 2 * spot_radius)) return {};
   return {fmt::format(
-      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact spot of {} "
-      "across; take a lower `drag_velocity` or a higher `frequency`",
+      "the slow motion moves by 2 pi v/w = {} in one normal cycle, more than the contact patch "
+      "size of {}; choose a lower `drag_velocity` or a higher `frequency`",
       format_quantity(path, Dimension::length),
       format_quantity(2 * spot_radius, Dimension::length))};
 }

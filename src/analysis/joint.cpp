@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial slip under tangential oscillations: by the law, by a surface's contacts, cell by cell.
+// Partial slip of joints under tangential oscillations, by three methods: with the contact law,
+// with contacts of a surface, and by simulation cell by cell.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,31 +20,32 @@ void require_converged(const std::vector<JointLoss>& losses, std::string_view wh
     throw NotConverged(fmt::format("joint: {} of {} {}", lost, losses.size(), what));
 }
 
-/// Every motion once more, cell by cell, at the same indentation.
+/// Simulates every motion again cell by cell, at the same indentation.
 std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surface,
                                 const Material& material, double indentation,
                                 const Context& context) {
-  const PressureFields levels = boundary_element_pressures(surface, material.contact_modulus);
+  const PressureFields pressures = boundary_element_pressures(surface, material.contact_modulus);
   CycleOptions options{.friction_coefficient = problem.parameters.friction_coefficient,
                        .steps = *problem.direct_steps,
                        .max_periods = 20};
   options.on_progress = context.on_progress;
   std::vector<JointLoss> losses;
   for (const TangentialOscillation& motion : problem.motions) {
-    losses.push_back(simulated_joint_loss(levels, surface.grid, material, indentation,
+    losses.push_back(simulated_joint_loss(pressures, surface.grid, material, indentation,
                                           {motion, problem.normal_amplitude, problem.phase},
                                           options));
     if (context.stopped && context.stopped())
       throw Interrupted("joint: stopped before all motions were done");
   }
-  require_converged(losses, "motions cell by cell did not converge to a steady loss");
+  require_converged(losses, "simulations cell by cell did not converge to a steady loss");
   return losses;
 }
 
-/// What is said of a part in place of its sample.
+/// A warning that forces and losses are those of the part, which is larger or smaller than its
+/// sample.
 std::string warning_of_area(double part, double sample) {
   return fmt::format(
-      "forces and works are of the part, {}, and {:.6g} times those of the sample, {}",
+      "forces and works are those of the part, {}; they are {:.6g} times those of the sample, {}",
       format_quantity(part, Dimension::length_squared), part / sample,
       format_quantity(sample, Dimension::length_squared));
 }
@@ -58,7 +60,8 @@ std::vector<JointLoss> of_part(std::vector<JointLoss> losses, double ratio) {
   return losses;
 }
 
-/// Motions of the sample that stands for a part.
+/// The motions of the sample that correspond to those of the part: force amplitudes are divided by
+/// `ratio`, the area of the part over that of the sample.
 std::vector<TangentialOscillation> of_sample(std::vector<TangentialOscillation> motions,
                                              double ratio) {
   for (TangentialOscillation& motion : motions)
@@ -66,7 +69,7 @@ std::vector<TangentialOscillation> of_sample(std::vector<TangentialOscillation> 
   return motions;
 }
 
-/// By the springs of the law.
+/// Losses of all motions, computed from the springs of the contact law.
 std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactLaw& law,
                                      const OperatingPoint& point, const Context& context) {
   const double friction = problem.parameters.friction_coefficient;
@@ -91,9 +94,9 @@ JointSolution solve(JointProblem problem, const Context& context) {
   Material material;
   auto* surface = std::get_if<SurfaceContact>(&problem.contact);
   require(surface || !problem.direct_steps, "direct_steps", problem.direct_steps.value_or(0),
-          "is of a surface cell by cell; give `surface`");
+          "simulates a surface cell by cell; give `surface`");
   const double area = problem.nominal_area;
-  double ratio = 1;  // of a surface, which is solved as it is
+  double ratio = 1;  // area of the part divided by that of the surface
   std::string warning;
   if (!std::isnan(area)) require_positive(area, "nominal_area");
   if (surface) {
@@ -110,11 +113,12 @@ JointSolution solve(JointProblem problem, const Context& context) {
   JointSolution solution{solve(std::move(problem.contact), context)};
   require(solution.contact.points.size() == 1, "normal_force",
           fmt::format("{} operating points", solution.contact.points.size()),
-          "are given; a joint takes one, and several tangential forces or amplitudes");
+          "given; a joint takes one, with several tangential forces or amplitudes");
   if (!warning.empty()) solution.warnings.push_back(warning);
   const double friction = problem.parameters.friction_coefficient;
   const OperatingPoint of_body = solution.contact.points.front();
-  std::shared_ptr<const ContactLaw> sample;  // where the surface is not the part
+  // Law of the surface; empty if the surface itself is the part.
+  std::shared_ptr<const ContactLaw> sample;
   if (ratio != 1) {
     sample = std::move(solution.contact.law);
     solution.contact.law = law_of_part(sample, ratio);
@@ -125,7 +129,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
   const OperatingPoint& point = solution.contact.points.front();
   const ContactLaw& law = *solution.contact.law;
   if (surface && !oscillates) {
-    // What the part cannot bear is refused in its own forces.
+    // Checks the motions on the part, so that the message about a force that is too large states
+    // forces of the part and not of the sample.
     if (sample)
       for (const TangentialOscillation& motion : problem.motions)
         joint_loss(law, point, motion, friction);
@@ -139,14 +144,14 @@ JointSolution solve(JointProblem problem, const Context& context) {
   require_converged(solution.losses, "integrals did not reach the tolerance");
   if (surface && oscillates)
     solution.warnings.emplace_back(
-        "the loss is that of a law through some loads: its error is not known while the normal "
-        "force oscillates");
+        "the loss is computed on a law through some loads; its error is not known, because the "
+        "normal force oscillates");
   if (const auto lost = std::ranges::count_if(
           solution.losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
       lost > 0)
     solution.warnings.push_back(
         fmt::format("n/a at {} of {} motions: the error of the loss is larger than the loss, "
-                    "because too few cells part where the joint slips; a finer surface helps",
+                    "because too few cells separate where the joint slips; use a finer surface",
                     lost, solution.losses.size()));
   const double indentation = solution.losses.front().indentation;
   solution.state = state_of(law, indentation);
@@ -167,11 +172,12 @@ JointSolution solve(JointProblem problem, const Context& context) {
       *std::ranges::max_element(solution.losses, {}, &JointLoss::tangential_amplitude);
   solution.largest = {problem.normal_amplitude, largest.tangential_amplitude, problem.phase,
                       problem.angular_frequency};
-  // A constant normal force is the limit of small normal amplitudes.
+  // With a constant normal force the assumptions are those of a very small normal amplitude.
   EqualFrequency judged = solution.largest;
   if (!oscillates)
     judged.normal_amplitude = 1e-6 * solution.state.force / solution.state.normal_stiffness;
-  solution.assumptions = solution.contact.assumptions_beside_slip(indentation, judged, problem.parameters);
+  solution.assumptions =
+      solution.contact.assumptions_beside_slip(indentation, judged, problem.parameters);
   return solution;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One oscillating contact by theorem and by direct simulation: bodies, routes and what they give.
+// One oscillating contact, computed by the theorem W = ½∮s² dK_t (s: stretch of a spring where it
+// separates) and by direct simulation: bodies, methods and results.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -30,7 +31,7 @@ double greatest(const std::vector<double>& values) {
   return most;
 }
 
-// Largest |a − b| over a cycle over the largest |b|.
+// Largest |a − b| of a quantity over a cycle, divided by the largest |b|.
 double change(const CycleResult& a, const CycleResult& b, double CycleSample::*quantity) {
   std::vector<double> values = column(a, quantity);
   const std::vector<double> reference = column(b, quantity);
@@ -39,7 +40,8 @@ double change(const CycleResult& a, const CycleResult& b, double CycleSample::*q
   return scale > 0 ? greatest(values) / scale : unknown;
 }
 
-// The last sample is the first of the next period.
+// Mean of a quantity over the period. The first sample is left out, because the last sample is the
+// same phase one period later.
 double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity) {
   const std::vector<double> values = column(cycle, quantity);
   return std::accumulate(values.begin() + 1, values.end(), 0.0) /
@@ -54,18 +56,18 @@ double tangential_scale(const Oscillation& motion) {
 
 ContactSets intervals_of(const OscillatingBody& body, const Material& material) {
   return boundary_element_contact_sets(body.surface, material.contact_modulus,
-                                 {.boundary = body.boundary});
+                                       {.boundary = body.boundary});
 }
 
 NormalContactState contact_at(const OperatingPoint& position, const OscillatingBody& body,
                               double contact_modulus, const NormalContactOptions& options) {
   NormalContactState state = press(body.surface, contact_modulus, position, options);
   if (!state.converged())
-    throw NotConverged("oscillate: the contact at the mean position did not converge");
+    throw NotConverged("oscillate: the contact at the mean indentation did not converge");
   return state;
 }
 
-/// NaN where the reference is not larger than what the solvers leave of a loss.
+/// value/reference; NaN if |reference| is not larger than the numerical error of a loss.
 double ratio(const OscillationOutcome& outcome, double value, double reference) {
   return std::abs(reference) > outcome.uncertain_loss() ? value / reference : unknown;
 }
@@ -82,7 +84,7 @@ OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid) 
   const double size = grid.lx;
   const PlanePoint center = off_grid_center(grid);
   const PlanePoint shift{0.31 * grid.dx(), 0.17 * grid.dy()};
-  // u_z = 0.3 of the indentation.
+  // The last two numbers of each body are its indentation δ0 and its normal amplitude u_z = 0.3 δ0.
   if (shape == "cylinder")
     return {flat_punch_surface(grid, 0.3 * size, size, center), Boundary::free, 0.02 * size,
             0.006 * size};
@@ -96,7 +98,7 @@ OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid) 
   if (shape == "pyramids")
     return {pyramids_surface(grid, 4, 4, 0.1, shift), Boundary::free, 0.006 * size, 0.0018 * size};
   require(shape == "sinusoids", "shape", shape,
-          fmt::format("is none of {}", fmt::join(oscillating_shapes(), ", ")));
+          fmt::format("is not one of {}", fmt::join(oscillating_shapes(), ", ")));
   return {sinusoid_surface(grid, 0.01 * size, 1, 4, shift), Boundary::periodic, 0.0045 * size,
           0.00135 * size};
 }
@@ -128,13 +130,15 @@ double OscillationOutcome::elastic_energy() const {
 double OscillationOutcome::uncertain_loss() const { return 1e-7 * elastic_energy(); }
 
 std::optional<double> OscillationOutcome::over(double reference) const {
-  // The quadrature of a contact whose cells do not change sums what its solvers leave.
+  // If the contact set does not change during the cycle, the loss of the quadrature is only the
+  // error of its solvers.
   if (std::abs(reference) <= std::max(intervals.error_estimate, uncertain_loss())) return {};
   return work_per_cycle() / reference;
 }
 
 bool OscillationOutcome::bends_down() const {
-  // A flat punch has F'' = 0 but for the noise of its force.
+  // The small-amplitude loss is proportional to F''. It is 0 for a flat punch except for the noise
+  // of the force, so only a clearly negative value counts.
   return intervals.small_amplitude_work < -1e-3 * elastic_energy();
 }
 
@@ -196,7 +200,7 @@ OscillationOutcome oscillation_by_intervals(OscillationCase run, const Oscillati
     options.quadrature = routes.intervals;
     const auto choose = [&](const auto& intervals) {
       return adaptive_interval_quadrature(intervals, grid, contact.material, contact.motion,
-                                       contact.indentation, options);
+                                          contact.indentation, options);
     };
     if (routes.shape.empty()) {
       outcome.choice = choose(intervals_of(contact.body, contact.material));
@@ -214,7 +218,7 @@ OscillationOutcome oscillation_by_intervals(OscillationCase run, const Oscillati
   } else {
     outcome.intervals =
         interval_quadrature(intervals_of(contact.body, contact.material), grid, contact.material,
-                         contact.motion, contact.indentation, routes.intervals);
+                            contact.motion, contact.indentation, routes.intervals);
   }
   if (outcome.intervals.termination == Termination::interrupted)
     throw Interrupted("interrupted; nothing was written");
@@ -260,7 +264,8 @@ OscillationLoss loss_of(const OscillationOutcome& outcome) {
       .work_over_elastic_energy = outcome.work_per_cycle() / outcome.elastic_energy(),
       .indentation = outcome.run.indentation,
       .force = intervals.force,
-      // The ends of the sweep are levels without a tangential solve, but for the last of a drag.
+      // The contacts at the largest and the smallest indentation do not count as nodes; they have
+      // no tangential solve, except that at the smallest indentation under a drag.
       .intervals = intervals.curve.samples.size() - 2};
   if (!outcome.bends_down()) {
     loss.small_amplitude_work = intervals.small_amplitude_work;
@@ -272,7 +277,8 @@ OscillationLoss loss_of(const OscillationOutcome& outcome) {
 
 ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay_length) {
   require_positive(decay_length, "decay_length");
-  const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.intervals.force;
+  const double modulus_ratio = outcome.run.material.modulus_ratio(),
+               force = outcome.intervals.force;
   const double small = std::visit(
       [&](const auto& motion) {
         return closed_form::work_per_cycle(modulus_ratio, force / (decay_length * decay_length),
@@ -326,8 +332,9 @@ Assumptions assumptions_of(const OscillationOutcome& outcome, ContactParameters 
   Assumptions assumptions;
   if (touching >= 4)
     assumptions = assumptions_of(TabulatedLaw(curve, run.material.modulus_ratio()), run.indentation,
-                           run.motion, parameters);
-  // The coupling that was computed, not one of other contacts.
+                                 run.motion, parameters);
+  // Judges coupling by the change of the loss that was simulated here, instead of by the largest
+  // change in simulations of other contacts.
   if (outcome.coupled && !std::holds_alternative<Drag>(run.motion)) {
     Assumption& coupling = assumptions.coupling;
     coupling.value =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves and laws of parts, by those of their samples.
+// Force curves and contact laws of a part, from those of its sample.
 #include "part.hpp"
 
 #include <cmath>
@@ -49,13 +49,12 @@ ForceCurve curve_of_part(ForceCurve curve, double area, const std::string& sourc
   const double ratio = states_area ? area / curve.nominal_area : 1;
   for (ForceSample& sample : curve.samples) {
     if (!states_area) {
-      require_that(
-          std::isnan(sample.force) && std::isnan(sample.normal_stiffness) &&
-              std::isnan(sample.tangential_stiffness),
-          "nominal_area",
-          "is that of the part, but " + source +
-              " has forces or stiffnesses of a sample and does not state its area; write a "
-              "line such as '# nominal_area: 1 mm^2' into it");
+      require_that(std::isnan(sample.force) && std::isnan(sample.normal_stiffness) &&
+                       std::isnan(sample.tangential_stiffness),
+                   "nominal_area",
+                   "is that of the part, but " + source +
+                       " has forces or stiffnesses of a sample without stating its area; write a "
+                       "line such as '# nominal_area: 1 mm^2' into it");
       sample.force = sample.pressure * area;
     }
     sample.force *= ratio;

@@ -6,16 +6,17 @@
 #include <salebra/contact/law/law.hpp>
 #include <string>
 
-/// A part is larger or smaller than the sample that its law was found on. Under the same pressure it
-/// has the same indentations, and forces and stiffnesses in proportion to its area.
+/// A part that is larger or smaller than the sample whose law is known. At the same pressure part
+/// and sample have the same indentation; forces and stiffnesses are proportional to the area.
 namespace salebra {
 
-/// The curve of a part of this area, m² > 0. A curve of pressures alone needs no area of its own.
-/// source  what messages call the curve
-/// throws  InvalidInput where the curve has forces or stiffnesses and does not state their area
+/// The curve of a part with this nominal area, m² > 0. A curve that has only pressures, and no
+/// forces or stiffnesses, needs no area of its own.
+/// source  name of the curve in error messages
+/// throws  InvalidInput if the curve has forces or stiffnesses and does not state its nominal area
 ForceCurve curve_of_part(ForceCurve curve, double area, const std::string& source);
 
-/// The law of a part of `ratio` times the area of the sample.
+/// The law of a part whose area is `ratio` times that of the sample.
 std::unique_ptr<const ContactLaw> law_of_part(std::shared_ptr<const ContactLaw> sample,
                                               double ratio);
 

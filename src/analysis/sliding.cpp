@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers about sliding: over velocities and amplitudes, and of a slider on a spring.
+// Steady sliding over velocities and amplitudes, and the motion of a slider on a spring.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,8 @@ std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplit
   return points;
 }
 
-// The largest oscillation about an indentation that the law covers.
+// The largest normal amplitude about an indentation for which the motion stays in the range of the
+// law.
 double covered_amplitude(const ContactLaw& law, double indentation) {
   return std::min({indentation - law.lowest_indentation(), law.highest_indentation() - indentation,
                    detail::possible_amplitude(law, indentation)});
@@ -119,7 +120,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
     const auto found = surface_sliding(*contact.surface, material, *contact.curve, contact.load(),
                                        motion, context.on_progress);
     for (std::size_t i = 0; i < velocities; ++i) {
-      // The indentations of the law, by which the assumptions are judged, are those of its cells.
+      // The assumptions are judged by the law, so the point keeps the mean indentation of the law.
       const double indentation = points[i].state.indentation;
       std::tie(points[i].state, points[i].errors) = found[i];
       points[i].state.indentation = indentation;
@@ -141,7 +142,7 @@ SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
       oscillates ? normal.angular_frequency : std::sqrt(slider.spring_stiffness / slider.mass)};
   solution.sliding = steady_sliding(law, point, solution.judged, friction, averages);
   const double indentation = solution.sliding.indentation;
-  // No oscillation is the limit of small ones.
+  // Without a normal oscillation the assumptions are judged for a very small one.
   if (!oscillates)
     solution.judged.normal_amplitude =
         1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
@@ -149,9 +150,8 @@ SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
   solution.averaged = averaged_slider_motion(law, point, normal, slider, friction, options);
   if (!solution.motion.converged || !solution.averaged.converged)
     throw NotConverged(
-        fmt::format("slider: the {} does not repeat to the `tolerance` within `max_cycles`; near "
-                    "the threshold "
-                    "disturbances grow or decay slowly, and then both must be raised",
+        fmt::format("slider: the {} does not repeat to the `tolerance` within `max_cycles`; raise "
+                    "both, because near the threshold disturbances grow or decay slowly",
                     solution.motion.converged ? "averaged motion" : "motion"));
   solution.thresholds = thresholds_of(problem, law, point, indentation);
   return solution;

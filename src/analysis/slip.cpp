@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slip in the loss of a law, where the coefficient of friction is known.
+// Computes the loss of a contact law with slip if the coefficient of friction is known.
 #include <cmath>
 #include <salebra/analysis/slip.hpp>
 #include <salebra/damping/closed_form.hpp>
@@ -7,19 +7,20 @@
 
 namespace salebra {
 
-std::string why_loss_unknown(const Motion& motion, const ContactParameters& parameters, bool force_given) {
+std::string why_loss_unknown(const Motion& motion, const ContactParameters& parameters,
+                             bool force_given) {
   if (std::isnan(parameters.friction_coefficient)) return {};
   if (force_given)
-    return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
+    return "slip is not computed for a `force_amplitude`; give the `normal_amplitude`";
   const auto* two = std::get_if<TwoFrequencies>(&motion);
   if (two && common_period(*two).normal_cycles == 0)
-    return "slip is not followed in a motion that never repeats; give frequencies with a common "
+    return "slip is not computed for a motion that never repeats; give frequencies with a common "
            "period";
   const auto* drag = std::get_if<Drag>(&motion);
   if (drag && std::isnan(parameters.excursion))
     return "with friction the loss of a slow motion depends on its `excursion`; give it";
   if (drag && parameters.excursion < drag->distance_per_cycle())
-    return "the motion turns back within one normal cycle: it is not slow; give a longer "
+    return "the motion reverses within one normal cycle, so it is not slow; give a longer "
            "`excursion`, or a motion of equal frequencies";
   return {};
 }
@@ -57,7 +58,7 @@ DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indent
   if (!std::isnan(friction_coefficient)) options.friction_coefficient = friction_coefficient;
   cycle.loss = trajectory_damping(law, cycle.path, options);
   const auto* equal = std::get_if<EqualFrequency>(&motion);
-  // Its frequency is not known.
+  // Without an angular frequency, power and damping constant are unknown.
   if (equal && !(equal->angular_frequency > 0))
     cycle.loss.power = cycle.loss.damping_constant = Loss::unknown;
   return cycle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws and profiles that look whether to stop.
+// Contact laws and indenter profiles that throw Interrupted when the user has asked to stop.
 #include "stoppable_law.hpp"
 
 #include <salebra/base/error.hpp>

@@ -8,8 +8,8 @@
 
 namespace salebra {
 
-/// The same law, or profile of an IndenterLaw, that throws Interrupted where it is evaluated after
-/// the context has said stop.
+/// Wraps a law, or the profile of an IndenterLaw. The result has the same values, but throws
+/// Interrupted when it is evaluated after Context::stopped() has returned true.
 std::unique_ptr<const ContactLaw> stoppable(std::unique_ptr<const ContactLaw> law,
                                             const Context& context);
 std::shared_ptr<const IndenterProfile> stoppable(std::shared_ptr<const IndenterProfile> profile,

@@ -17,12 +17,13 @@
 #include <variant>
 #include <vector>
 
-/// Values as bytes and back, for the kept realisations of a study, checksums, pickle and ==: every
-/// member of a described struct, in the order of its declaration. One function walks a value for
-/// both directions, and for whatever has a raw() of its own.
+/// Converts values to bytes and back, for stored realisations of a study, checksums, Python's
+/// pickle and the comparison ==. A described struct is written member by member in the order of
+/// declaration. One function, archive(), handles reading and writing; it takes any archive class
+/// that has a member function raw().
 namespace salebra::detail {
 
-/// Appends what it is given.
+/// Collects bytes by appending them.
 class ByteWriter {
  public:
   static constexpr bool reads = false;
@@ -35,8 +36,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-/// Takes from the front of what it was made of. Throws InvalidInput beyond its end, which names the
-/// field.
+/// Takes bytes from the front of its input. Reading beyond the end throws InvalidInput that names
+/// the field given to the constructor.
 class ByteReader {
  public:
   static constexpr bool reads = true;
@@ -48,7 +49,7 @@ class ByteReader {
   }
   std::size_t left() const { return rest_.size(); }
   void require(bool sound) const {
-    if (!sound) throw InvalidInput(field_, "is cut short or damaged; make it anew");
+    if (!sound) throw InvalidInput(field_, "is truncated or damaged; make it again");
   }
 
  private:
@@ -71,13 +72,14 @@ constexpr bool is_variant<std::variant<T...>> = true;
 template <class Archive, class T>
 void archive(Archive& through, T& value);
 
-/// Whether a value has no bytes: who is told of the progress and which processes are at work belongs
-/// to a call, not to the value.
+/// Whether a member of type T is not stored: progress callbacks and communicators belong to a call,
+/// not to the value.
 template <class T>
 constexpr bool is_left_out =
     is_function<T> || std::is_same_v<T, Communicator> || std::is_empty_v<T>;
 
-/// Bytes that a value takes at least, of which a damaged count may not promise more than there are.
+/// Minimum number of bytes that an archived value of type T takes. A damaged file whose element
+/// count does not fit into the remaining bytes is thus detected.
 template <class T>
 constexpr std::size_t min_bytes() {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
@@ -97,8 +99,8 @@ constexpr std::size_t min_bytes() {
   }
 }
 
-/// Texts and lists: a count and what follows it. A wrong count is found before anything is
-/// allocated for it.
+/// Archives a string or list as a count followed by the elements. A count that is too large for the
+/// remaining bytes is detected before memory is allocated for the elements.
 template <class Archive, class List>
 void archive_list(Archive& through, List& list) {
   using Item = std::remove_cvref_t<decltype(*list.begin())>;
@@ -143,7 +145,7 @@ void archive_field(Archive& through, T& value) {
 template <class Archive, class T>
 void archive(Archive& through, T& value) {
   using Plain = std::remove_const_t<T>;
-  // A writer's values are constants by intent: it takes them as they are.
+  // A writer does not change the value; the cast lets writers and readers share this function.
   auto& own = const_cast<Plain&>(value);
   if constexpr (std::is_same_v<Plain, bool>) {
     unsigned char truth = own;
@@ -188,7 +190,8 @@ std::string bytes_of(const T&... values) {
   return writer.bytes();
 }
 
-/// The first value of bytes_of(). Throws InvalidInput for other bytes as far as their lengths tell.
+/// Returns the value at the start of `bytes`, which bytes_of() has made. Throws InvalidInput that
+/// names `field` if the number of bytes does not match; other damage is not detected.
 template <class T>
 T from_bytes(std::string_view bytes, std::string_view field) {
   T value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real field from the columns of its half-spectrum, so that no full complex array is held, and
-// columns of the half-spectrum of a field.
+// Backward transform column by column, without a full complex array, and forward transform that
+// yields columns of the half-spectrum.
 #include "column_fft.hpp"
 
 #include <algorithm>
@@ -18,19 +18,20 @@ namespace {
 using Api = detail::Fftw<double>;
 using Complex = std::complex<double>;
 
-// Columns that are copied to the rows together: 16 of them fill two cache lines of each row they
-// touch. They are sent together too.
+// Number of columns in a group, which are copied to the rows, and sent, together: 16 of them fill
+// two cache lines of each row.
 constexpr Index block = 16;
 
 constexpr const char* stage = "surface";
 
 fftw_complex* fftw(Complex* values) { return reinterpret_cast<fftw_complex*>(values); }
 
-// An odd length of columns would break the alignment of every second one.
+// Distance between the starts of two columns, in complex numbers: nx rounded up to a multiple of 4,
+// so that every column is aligned like the first.
 Index column_pitch(Index nx) { return (nx + 3) / 4 * 4; }
 
-// Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence
-// has the same.
+// An FFTW plan holds only for arrays aligned like those it was made for; all buffers in this file
+// come from fftw_array() and are aligned alike.
 detail::FftwPlan<double> plan_column(Index nx, int sign) {
   const auto buffer = detail::fftw_array<Complex>(static_cast<std::size_t>(nx));
   const int n = static_cast<int>(nx);
@@ -59,16 +60,17 @@ detail::FftwPlan<double> plan_row_forward(Index ny) {
   });
 }
 
-// Which groups of columns a process makes: rank, rank + ranks, rank + 2·ranks, …, the next at_once
-// of them in each batch. A process that is alone makes all in one batch.
+// Assigns groups of 16 columns to processes: with `ranks` processes, process `rank` makes the
+// groups rank, rank + ranks, rank + 2·ranks and so on, `at_once` groups in each batch. A single
+// process makes all groups in one batch.
 struct Deal {
   Index groups, ranks, at_once, batches;
 
   Deal(Index ny, Index columns, const RowPartition& rows)
       : groups((columns + block - 1) / block), ranks(rows.communicator().size()) {
     const Index most = (groups + ranks - 1) / ranks;
-    // A batch has three buffers of 16 complex columns for each group: as many bytes as ny/ranks
-    // real columns.
+    // A batch needs three buffers of 16 complex columns for each of its groups; `at_once` makes the
+    // buffers together as large as ny/ranks real columns.
     at_once = ranks == 1 ? most : std::clamp<Index>(ny / (6 * block * ranks), 1, most);
     batches = (most + at_once - 1) / at_once;
   }
@@ -78,8 +80,9 @@ struct Deal {
   Index count(Index rank, Index batch) const {
     return std::clamp<Index>((groups - rank + ranks - 1) / ranks - batch * at_once, 0, at_once);
   }
-  // Units of a batch are the columns of a group in one row, by the process, then by the group, then
-  // by the row.
+  // The exchange that sends the columns of a batch to the owners of the rows. A unit of the
+  // exchange is one row of a group of columns. Units are sorted by process, then by group, then by
+  // row.
   Exchange exchange(const RowPartition& rows, Index batch) const {
     const Index mine = count(rows.communicator().rank(), batch);
     std::vector<std::int64_t> sent, received;
@@ -89,7 +92,8 @@ struct Deal {
     }
     return {block * sizeof(Complex), std::move(sent), std::move(received)};
   }
-  // The columns of all batches.
+  // Number of columns that process `rank` makes in all batches, of `of_all` columns of all
+  // processes.
   Index columns(Index rank, Index of_all) const {
     Index sum = 0;
     for (Index group = rank; group < groups; group += ranks)
@@ -110,7 +114,7 @@ class BackwardByColumns {
         alone_(rows.communicator().alone()),
         deal_(ny, columns, rows) {}
 
-  // Takes all memory but the few rows and columns of each thread.
+  // Allocates all memory except the few rows and columns that each thread needs for itself.
   void prepare() {
     field_ = uninitialised_field(rows_.count(), ny_);
     touch_pages(field_);
@@ -164,8 +168,8 @@ class BackwardByColumns {
  private:
   Index columns_of(Index group) const { return std::min(block, columns_ - group * block); }
 
-  // Fills and transforms the groups of this process, and puts them where they are kept or sent
-  // from.
+  // Fills and transforms the groups of this process, and stores them in the field or packs them for
+  // sending.
   void make_columns(Index batch, const SpectrumColumn& column, const std::optional<Exchange>& plan,
                     LoopProgress& loop) {
     const Index pitch = column_pitch(nx_);
@@ -190,8 +194,7 @@ class BackwardByColumns {
     });
   }
 
-  // Group number k of a batch into what is sent: the rows of each process apart, a row of the group
-  // after the other.
+  // Packs group k of a batch for sending: one part for each receiving process, row by row.
   void pack(Index k, Index count, const Exchange& plan, const Complex* modes, Index pitch) {
     for (int rank = 0; rank < rows_.communicator().size(); ++rank) {
       const Index first = rows_.begin_of(rank), number = rows_.end_of(rank) - first;
@@ -215,8 +218,9 @@ class BackwardByColumns {
     });
   }
 
-  // The modes of a row wait in the memory of the row for the transform. ny values hold ny/2 modes;
-  // where there is one more, it stands apart. mode(row of this process, column of the group)
+  // Stores the modes of a row in the memory of that row of the field until they are transformed.
+  // The ny values of a row hold ny/2 complex modes; one further mode goes to last_column_. `mode`
+  // is called as mode(row of this process, column of the group).
   template <class Mode>
   void keep(Index group, Index begin, Index end, const Mode& mode) {
     const Index first = group * block, count = columns_of(group),
@@ -262,7 +266,8 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
 
 void forward_by_columns(Index nx, Index ny,
                         const std::function<void(Index row, std::span<double> values)>& row,
-                        const SpectrumColumn& visit, const RowPartition& rows, const RowPartition& columns) {
+                        const SpectrumColumn& visit, const RowPartition& rows,
+                        const RowPartition& columns) {
   require(rows.rows() == nx, "rows", rows.rows(), "must be nx rows in all");
   require(columns.rows() == ny / 2 + 1, "columns", columns.rows(), "must be ny/2+1 in all");
   const Index pitch = column_pitch(ny / 2 + 1);

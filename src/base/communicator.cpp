@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Collective calls of the processes that share a surface, and failures that all of them learn of.
+// Collective calls of the processes that share a surface, and failures that all processes learn of.
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -18,8 +18,7 @@ std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& counts) {
   return offsets;
 }
 
-// What a process has to say of its failure: a letter for the class, and its parts, each behind a
-// zero byte.
+// Encodes a failure as text: a letter for its class, and its parts, each after a zero byte.
 std::string joined(char kind, std::initializer_list<std::string> parts) {
   std::string text(1, kind);
   for (const std::string& part : parts) text += '\0' + part;
@@ -105,7 +104,7 @@ void Communicator::gather_all(const void* mine, std::span<const std::size_t> byt
 
 std::vector<std::string> Communicator::gather_all(const std::string& mine) const {
   if (alone()) return {mine};
-  const auto count = static_cast<std::size_t>(communicator());
+  const auto count = static_cast<std::size_t>(size());
   const std::size_t length = mine.size();
   std::vector<std::size_t> lengths(count);
   gather_all(&length, std::vector<std::size_t>(count, sizeof length), lengths.data());
@@ -124,7 +123,7 @@ bool Communicator::all_agree(bool yes) const { return min_of(yes ? 1 : 0) > 0; }
 
 double Communicator::min_of(double mine) const {
   if (alone()) return mine;
-  const std::vector<std::size_t> one(static_cast<std::size_t>(communicator()), sizeof mine);
+  const std::vector<std::size_t> one(static_cast<std::size_t>(size()), sizeof mine);
   std::vector<double> all(one.size());
   gather_all(&mine, one, all.data());
   return *std::min_element(all.begin(), all.end());
@@ -147,8 +146,8 @@ Groups::Groups(const Communicator& all, int count) : all_(all), own_(all), count
   require(count >= 1 && count <= all.size(), "groups", count,
           "must lie between 1 and the number of processes");
   if (count == 1) return;
-  offset_ = static_cast<int>(std::int64_t{all.rank()} * count / all.size());
-  own_ = all.split(offset_);
+  index_ = static_cast<int>(std::int64_t{all.rank()} * count / all.size());
+  own_ = all.split(index_);
 }
 
 void collectively(const Communicator& communicator, const std::function<void()>& body) {

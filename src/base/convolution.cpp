@@ -14,16 +14,16 @@
 namespace salebra {
 namespace {
 
-// Pairs of rows that are turned into columns together: eight complex numbers of a column are one or
-// two whole cache lines.
+// Number of row pairs that are transposed together: the eight complex numbers that these pairs have
+// in a column fill one or two cache lines.
 constexpr Index pairs_at_once = 8;
-// Rows are paired within blocks of so many, and a unit of eight numbers of a column belongs to one
-// block. A process that has whole blocks of the rows therefore transforms what any other number of
-// processes would.
+// Number of rows in a block. Rows are paired within a block, and the eight pairs that are
+// transposed together come from one block. Processes hold whole blocks, so the transforms do not
+// depend on the number of processes.
 constexpr Index rows_at_once = 2 * pairs_at_once;
 
-// Added to the lengths of columns and rows, so that equal places of all of them do not fall into
-// one set of the cache.
+// Padding of columns and rows, in complex numbers. Without padding, equal indices of different
+// columns could map to one set of the cache.
 constexpr Index gap = 8;
 
 std::size_t count(Index number) { return static_cast<std::size_t>(number); }
@@ -31,21 +31,21 @@ Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 
 }  // namespace
 
-// Rows i and i + 8 of a block of 16 are transformed as the real and the imaginary part of one
-// complex row z, because FFTW's complex transform takes no longer than its real one. The spectrum
-// is kept column by column: a transform of contiguous numbers is about three times faster than one
-// of strided numbers, and a column with its symbol stays in the cache from the forward transform to
-// the backward one. There, columns k and −k of z give column k of the field,
+// Rows i and i + 8 of a block of 16 are transformed as the real and imaginary part of one complex
+// row z, because FFTW's complex transform takes no longer than its real one. The spectrum is kept
+// column by column: transforms of contiguous numbers are about three times faster than those of
+// strided numbers, and a column with its symbol stays in the cache from the forward to the backward
+// transform. With z_i(k) the number of row i in column k, columns k and −k of z give column k of
+// the spectrum x of the real rows,
 //     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+8} = (z_i(k) − z_i(−k)*)/2i,
-// which is all that is needed, since that of −k is its conjugate. The last block may have fewer
-// rows, of which the second half are the partners of the first; what is missing of its eight pairs
-// is zero.
+// and column −k of x is the conjugate of column k. If the last block has fewer than 16 rows, its
+// second half still holds the partners of its first half, and missing pairs are zero.
 //
-// Over several processes each holds blocks of rows and, for the pass over columns, a range of k
-// together with all −k. The pass over rows writes a column part by part, [process that has the
-// column][component][column][its own block][pair], and an exchange brings the parts of a column
-// together as [process that has the rows][component][column][block of that process][pair]. The part
-// of its own columns stays where the pass over rows wrote it.
+// With several processes, each holds blocks of rows and, for the pass over columns, a range of k
+// together with all −k. The pass over rows writes the columns to the array [process that will
+// transform the column][component][column][own block][pair], and an exchange collects each column
+// from all processes in the array [process that has the rows][component][column][block of that
+// process][pair]. The part of a process's own columns stays where the pass over rows wrote it.
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -55,34 +55,35 @@ struct Convolution2D<Real>::Passes {
   Shape shape;
   int components;
   RowPartition rows_of_all;
-  // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without
-  // those that are their own mirror.
+  // The columns k = low … low + low_count − 1 of a process, followed by their mirror images −k =
+  // high … high + high_count − 1. A column that is its own mirror image (k = 0 or k = period_y/2)
+  // occurs once.
   struct Columns {
     Index low = 0, low_count = 0, high = 0, high_count = 0;
-    Index position = 0;  // of its part in `by_rows`
+    Index position = 0;  // start of this process's part in `by_rows`
     Index count() const { return low_count + high_count; }
     Index index(Index column) const {
       return column < low + low_count ? column - low : low_count + column - high;
     }
   };
-  std::vector<Columns> columns_of;  // each process
+  std::vector<Columns> columns_of;  // one entry per process
   struct Rows {
     Index first_block = 0, blocks = 0;
-    Index stride = 0;  // from one column of its rows to the next
-    Index position = 0;   // of its part in `by_columns`
+    Index stride = 0;    // distance between columns
+    Index position = 0;  // start of its part in `by_columns`
   };
-  std::vector<Rows> rows_of;  // each process
-  Index received = 0;         // numbers from other processes
+  std::vector<Rows> rows_of;  // one entry for each process
+  Index received = 0;         // number of complex numbers received from other processes
   std::optional<Exchange> to_columns, to_rows;
   Complex* by_rows = nullptr;
-  Complex* by_columns = nullptr;  // of the rows of other processes
+  Complex* by_columns = nullptr;  // spectrum rows of other processes
   LargeArray<Complex> own_spectrum;
   struct Table {
-    // [column of this process][i = 0 … period_x/2], over 2·points of the transform
+    // [column of this process][i = 0 … period_x/2], divided by 2·period_x·period_y
     std::shared_ptr<Real[]> values;
     Parity parity = Parity::even;
   };
-  std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
+  std::array<Table, 3> tables;  // symbols of K_00, K_01 = K_10, K_11
   struct Plans {
     detail::FftwPlan<Real> row_forward, row_backward, column_forward, column_backward;
   };
@@ -100,7 +101,7 @@ struct Convolution2D<Real>::Passes {
     spread_work();
     make_plans();
   }
-  // With a spectrum of its own.
+  // The copy allocates its own memory for the spectrum.
   Passes(const Passes& other)
       : shape(other.shape),
         components(other.components),
@@ -110,7 +111,7 @@ struct Convolution2D<Real>::Passes {
     spread_work();
   }
 
-  // The rows and columns of each process, and what goes from one to another.
+  // Sets the rows and columns that each process holds, and the exchanges between processes.
   void spread_work() {
     const int ranks = rows_of_all.communicator().size(), me = rows_of_all.communicator().rank();
     for (int rank = 0; rank < ranks; ++rank) {
@@ -123,7 +124,8 @@ struct Convolution2D<Real>::Passes {
     const RowPartition columns = detail::spectrum_columns(rows_of_all, shape.period_y);
     for (int rank = 0; rank < ranks; ++rank) {
       const Index begin = columns.begin_of(rank), end = columns.end_of(rank);
-      // −k of these k, but for k = 0 and k = period_y/2.
+      // Beginning and end of the columns k whose −k is another column: all but k = 0 and k =
+      // period_y/2.
       const Index first = std::max<Index>(begin, 1),
                   last = 2 * (end - 1) == shape.period_y ? end - 1 : end;
       columns_of.push_back(
@@ -134,35 +136,38 @@ struct Convolution2D<Real>::Passes {
              rows_of[static_cast<std::size_t>(rows)].stride / gap;
     };
     std::vector<std::int64_t> away, here;
-    Index away_place = 0, here_place = 0;
+    Index away_offset = 0, here_offset = 0;
     for (int rank = 0; rank < ranks; ++rank) {
       away.push_back(units(rank, me));
       here.push_back(units(me, rank));
       if (rank == me) away.back() = here.back() = 0;
-      columns_of[static_cast<std::size_t>(rank)].position = away_place;
-      rows_of[static_cast<std::size_t>(rank)].position = here_place;
-      away_place += gap * away.back();
-      here_place += gap * here.back();
+      columns_of[static_cast<std::size_t>(rank)].position = away_offset;
+      rows_of[static_cast<std::size_t>(rank)].position = here_offset;
+      away_offset += gap * away.back();
+      here_offset += gap * here.back();
     }
-    columns_of[static_cast<std::size_t>(me)].position = away_place;  // behind those of the others
-    received = here_place;
+    columns_of[static_cast<std::size_t>(me)].position = away_offset;  // after the others' parts
+    received = here_offset;
     if (ranks == 1) return;
     to_columns.emplace(gap * sizeof(Complex), away, here);
     to_rows.emplace(gap * sizeof(Complex), here, away);
   }
 
-  // What is padded is sent too: over several processes only lengths of whole pages are.
+  // Distance between the starts of two columns. Padding is sent too, so with several processes only
+  // columns that fill whole memory pages are padded.
   static Index column_stride(Index blocks, int ranks) {
     const Index length = blocks * pairs_at_once;
     if (length == 0) return 0;
     const bool whole_pages = length * static_cast<Index>(sizeof(Complex)) % 4096 == 0;
     return ranks > 1 && !whole_pages ? length : padded(length);
   }
-  const Rows& mine() const { return rows_of[static_cast<std::size_t>(rows_of_all.communicator().rank())]; }
+  const Rows& mine() const {
+    return rows_of[static_cast<std::size_t>(rows_of_all.communicator().rank())];
+  }
   const Columns& my_columns() const {
     return columns_of[static_cast<std::size_t>(rows_of_all.communicator().rank())];
   }
-  // Points of the transform in this process.
+  // Number of points of the padded field that this process transforms.
   Index points() const { return mine().blocks * rows_at_once * shape.period_y; }
   std::size_t rows_size() const {
     return count(my_columns().position + components * my_columns().count() * mine().stride);
@@ -173,17 +178,18 @@ struct Convolution2D<Real>::Passes {
     by_columns = memory + rows_size();
   }
   Index table_rows() const { return shape.period_x / 2 + 1; }
-  // Pairs of a block of this process; the last of an odd number of rows is without partner.
+  // Number of pairs in a block of this process; with an odd number of rows, the last row has no
+  // partner.
   Index pairs(Index block) const {
     return (std::min(rows_at_once, rows_of_all.count() - block * rows_at_once) + 1) / 2;
   }
-  // Where the numbers of a column lie in the part of the process that has the rows.
+  // Start of the given column, in the part that comes from the process with the given rows.
   Complex* column(int component, Index index, const Rows& rows) {
     Complex* part = &rows == &mine() ? by_rows + my_columns().position : by_columns + rows.position;
     return part + (component * my_columns().count() + my_columns().index(index)) * rows.stride;
   }
-  // body(first column, count of them, where their numbers of a block are to lie) for the columns of
-  // all processes.
+  // For a block of rows, calls body(first column, number of columns, destination of these columns)
+  // for the runs of columns of all processes.
   template <class Body>
   void for_columns(int component, Index block, const Body& body) {
     const Index stride = mine().stride;
@@ -205,8 +211,8 @@ struct Convolution2D<Real>::Passes {
   }
 
   void make_plans() {
-    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run; arrays of another
-    // alignment than these are never used.
+    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run. All later arrays have
+    // the alignment of the arrays that the plans are made with.
     const auto make = [](Index length, int sign) {
       const auto from = large_array<Complex>(count(length)),
                  to = large_array<Complex>(count(length));
@@ -237,14 +243,14 @@ struct Convolution2D<Real>::Passes {
         points());
   }
 
-  // Room for the work on a block.
+  // Memory of a thread for the work on a block of rows.
   struct Buffers {
-    LargeArray<Complex> row, rows;  // one row, and those of all pairs with stride between them
-    LargeArray<Real> near, far;     // of the two real rows of a pair
+    LargeArray<Complex> row, rows;  // one row; the rows of all pairs, `stride` apart
+    LargeArray<Real> near, far;     // the two real rows of a pair
     Index stride;
   };
 
-  // body(block, room) for the blocks of rows.
+  // Calls body(block, buffers) for the blocks of rows of this process.
   template <class Body>
   void for_blocks(const Body& body) {
     const Index stride = padded(shape.period_y);
@@ -252,15 +258,15 @@ struct Convolution2D<Real>::Passes {
         mine().blocks,
         [&](Index begin, Index end) {
           const Buffers buffers{large_array<Complex>(count(stride)),
-                          large_array<Complex>(count(pairs_at_once * stride)),
-                          large_array<Real>(count(shape.ny)), large_array<Real>(count(shape.ny)),
-                          stride};
+                                large_array<Complex>(count(pairs_at_once * stride)),
+                                large_array<Real>(count(shape.ny)),
+                                large_array<Real>(count(shape.ny)), stride};
           for (Index block = begin; block < end; ++block) body(block, buffers);
         },
         points());
   }
 
-  // source(component, row, room) as RowSource.
+  // Transforms the rows forward along y; source(component, row, buffer) is a RowSource.
   template <class Source>
   void rows_forward(const Source& source) {
     for_blocks([&](Index block, const Buffers& buffers) {
@@ -286,31 +292,32 @@ struct Convolution2D<Real>::Passes {
           Api::execute(plans->row_forward.get(), raw(buffers.row.get()), raw(to));
         }
         for_columns(component, block, [&](Index first_column, Index number, Complex* to) {
-          kernels.to_columns(real(buffers.rows.get() + first_column), buffers.stride, number, real(to),
-                             mine().stride);
+          kernels.to_columns(real(buffers.rows.get() + first_column), buffers.stride, number,
+                             real(to), mine().stride);
         });
       }
     });
   }
 
-  // place(component, row, room) says where a row is to be, and done(component, row, values) is told
-  // when it is there.
+  // Transforms the rows backward along y. target(component, row, buffer) returns the memory that
+  // receives the row of the result; done(component, row, values) is called after the row was
+  // written.
   template <class Place, class Done>
-  void rows_backward(const Place& position, const Done& done) {
+  void rows_backward(const Place& target, const Done& done) {
     for_blocks([&](Index block, const Buffers& buffers) {
       const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
         for_columns(component, block, [&](Index first_column, Index number, const Complex* from) {
-          kernels.to_rows(real(from), mine().stride, number, real(buffers.rows.get() + first_column),
-                          buffers.stride);
+          kernels.to_rows(real(from), mine().stride, number,
+                          real(buffers.rows.get() + first_column), buffers.stride);
         });
         for (Index i = 0; i < paired; ++i) {
           Api::execute(plans->row_backward.get(), raw(buffers.rows.get() + i * buffers.stride),
                        raw(buffers.row.get()));
           const Index row = first + i, partner = row + paired;
-          Real* near = position(component, row, buffers.near.get());
-          Real* far =
-              partner < rows_of_all.count() ? position(component, partner, buffers.far.get()) : nullptr;
+          Real* near = target(component, row, buffers.near.get());
+          Real* far = partner < rows_of_all.count() ? target(component, partner, buffers.far.get())
+                                                    : nullptr;
           kernels.split(real(buffers.row.get()), shape.ny, near, far);
           done(component, row, near);
           if (far) done(component, partner, far);
@@ -354,12 +361,13 @@ struct Convolution2D<Real>::Passes {
         points());
   }
 
-  // Blocks of 16 rows among those of a process.
+  // Number of full blocks of 16 rows that a process has.
   Index whole_blocks(const Rows& rows) const {
     return std::min(rows.blocks, shape.nx / rows_at_once - rows.first_block);
   }
 
-  // 2·x on the rows of a process, from z(k) and z(−k) there.
+  // Computes 2·x on the rows of a process from columns z(k) and z(−k), where x is column k of the
+  // spectrum of the real rows.
   void separate(const Complex* z, const Complex* mirrored, const Rows& rows, Complex* x) const {
     x += rows.first_block * rows_at_once;
     kernels.separate(real(z), real(mirrored), whole_blocks(rows), real(x));
@@ -370,12 +378,12 @@ struct Convolution2D<Real>::Passes {
     });
   }
 
-  // z(k) and z(−k) from x on the rows of a process.
+  // Inverse of separate(): computes columns z(k) and z(−k) on the rows of a process from column x.
   void join(const Complex* x, const Rows& rows, Complex* z, Complex* mirrored) const {
     x += rows.first_block * rows_at_once;
     const Index whole = whole_blocks(rows);
     if (z == mirrored) {
-      // The spectrum of a real row is real here.
+      // In a column that is its own mirror image, the spectrum of a real row is real.
       for (Index block = 0; block < whole; ++block)
         for (Index i = 0; i < pairs_at_once; ++i)
           z[block * pairs_at_once + i] = {x[block * rows_at_once + i].real(),
@@ -394,8 +402,8 @@ struct Convolution2D<Real>::Passes {
     });
   }
 
-  // body(pair, row, partner, whether it exists) for the pairs of a block that is not full, counted
-  // from the first row of the process.
+  // Calls body(pair, row, partner, whether the partner row exists) for the pairs of a last block
+  // that has fewer than 16 rows; row and partner count from the first row of the process.
   template <class Body>
   void for_last_pairs(const Rows& rows, const Body& body) const {
     const Index whole = whole_blocks(rows);
@@ -441,7 +449,7 @@ struct Convolution2D<Real>::Passes {
   }
 
   template <class Source, class Place, class Done>
-  void apply(const Source& source, const Place& position, const Done& done) {
+  void apply(const Source& source, const Place& target, const Done& done) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
@@ -453,7 +461,7 @@ struct Convolution2D<Real>::Passes {
     if (to_columns) rows_of_all.communicator().exchange(*to_columns, by_rows, by_columns);
     columns();
     if (to_rows) rows_of_all.communicator().exchange(*to_rows, by_columns, by_rows);
-    rows_backward(position, done);
+    rows_backward(target, done);
   }
 
   void apply(const Real* const* fields, Real* const* results) {
@@ -502,7 +510,7 @@ void Convolution2D<Real>::apply(const Real* field, Real* result) {
 
 template <class Real>
 void Convolution2D<Real>::apply(const RowSource& source, const RowSink& sink) {
-  passes_->apply(source, [](int, Index, Real* buffers) { return buffer; }, sink);
+  passes_->apply(source, [](int, Index, Real* buffer) { return buffer; }, sink);
 }
 
 template <class Real>

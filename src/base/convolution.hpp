@@ -10,66 +10,72 @@
 
 namespace salebra {
 
-/// What a kernel does under x → −x and under y → −y: even or odd under each, or odd under one.
+/// Symmetry of a kernel when x → −x or y → −y: even in x and y, odd in x and y, odd in x only, or
+/// odd in y only.
 enum class Parity { even, odd, odd_along_x, odd_along_y };
 
-/// Convolution of real fields with real kernels, by one real transform forward and one backward:
+/// Convolution of real fields x_b with real kernels K_ab, by one real Fourier transform forward and
+/// one backward:
 ///     y_a = Σ_b K_ab * x_b,   a, b < components (1 or 2),   K_ab = K_ba.
-/// A field (nx, ny) fills the first points of a period (period_x, period_y) and the rest is zero:
-/// with period = n the convolution is circular, with period >= 2n − 1 it is that of isolated
-/// fields. Three passes over memory: rows, then columns, each of which stays in cache while it is
-/// transformed, multiplied by the symbols and transformed back, then rows. The result has the same
-/// bits for every thread count. One object may run in one thread at a time. Memory: sizeof(Real)
-/// bytes for each component and each of nx·period_y points while it is in use, (2 − 1/P) times as
-/// many over P processes, and a quarter of that for each symbol and each point of the period.
+/// A field of nx × ny points fills the first points of a period of period_x × period_y points; the
+/// rest of the period is zero. If the period equals the field, the convolution is circular; with
+/// period_x >= 2nx − 1 and period_y >= 2ny − 1 it is that of isolated fields. It takes three passes
+/// over memory: rows, columns, rows. In the second pass each column stays in cache while it is
+/// transformed, multiplied by the symbols and transformed back. The result has the same bits for
+/// every thread count. An object may be used by one thread at a time. Memory during use:
+/// sizeof(Real) bytes for each component and each of nx·period_y points, (2 − 1/P) times as much
+/// with P processes, plus a quarter of sizeof(Real) for each symbol and each point of the period.
 template <class Real>
 class Convolution2D {
  public:
   struct Shape {
-    Index nx = 0, ny = 0;              ///< of the fields
-    Index period_x = 0, period_y = 0;  ///< of the transform; >= nx, ny
+    Index nx = 0, ny = 0;              ///< size of the fields
+    Index period_x = 0, period_y = 0;  ///< size of the transform; >= nx, ny
   };
-  /// The kernel's transform Σ_ab K(a, b) exp(−2πi(ia/period_x + jb/period_y)) for 0 <= i <=
-  /// period_x/2, 0 <= j <= period_y/2: real, or 1/i of it where it is imaginary, of kernels that
-  /// are odd along one axis. Parity says what it is at negative i, j.
+  /// Fourier transform of one kernel K(a, b), the value at a distance of (a, b) points: Σ_ab K(a,
+  /// b) exp(−2πi(ia/period_x + jb/period_y)) for 0 <= i <= period_x/2, 0 <= j <= period_y/2. For a
+  /// kernel that is odd along one axis the transform is imaginary, and the symbol is 1/i times the
+  /// transform. The kernel's Parity gives the symbol at negative i and j.
   using Symbol = std::function<double(Index i, Index j)>;
 
   explicit Convolution2D(const Shape& shape, int components = 1);
-  /// Spreads the work over the processes of a share of the nx rows. Fields, results and the numbers
-  /// of rows are then those of this process; spectra and symbols are spread by columns. apply() is
-  /// collective and sends each number of a spectrum twice. The result has the same bits for every
-  /// number of processes.
+  /// Distributes the work over the processes that share the nx rows. Fields, results and row
+  /// indices are then those of this process; spectra and symbols are distributed by columns.
+  /// apply() is collective and sends each number of a spectrum twice. The result has the same bits
+  /// for every number of processes.
   Convolution2D(const Shape& shape, int components, const RowPartition& rows);
-  /// Shares the symbols that have been set, and the plans, which are not made again.
+  /// The copy shares FFTW's plans, and the symbols that have been set, with `other`.
   Convolution2D(const Convolution2D& other);
   Convolution2D(Convolution2D&&) noexcept;
   Convolution2D& operator=(Convolution2D&&) noexcept;
   ~Convolution2D();
 
   const Shape& shape() const;
-  /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads. Kernels
-  /// that are odd along one axis are for two components, and then all are.
+  /// Sets the symbol of the kernel K_ab = K_ba. Symbols are zero until set. `symbol` is called from
+  /// several threads. A kernel that is odd along one axis requires two components, and then all
+  /// kernels must be odd along one axis.
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
 
-  /// Lets apply() keep its spectrum in the memory given, of at least spectrum_bytes() on a boundary
-  /// of 64 bytes, which is the caller's to use between two calls; nullptr: in memory of its own
-  /// again.
+  /// Makes apply() keep its spectrum in the given memory, which must have spectrum_bytes() bytes
+  /// and an alignment of 64 bytes. The caller may use this memory between two calls of apply().
+  /// After nullptr, apply() allocates its own memory again.
   void keep_spectrum_in(void* memory);
   std::size_t spectrum_bytes() const;
 
-  /// One component. result may be field itself.
+  /// Convolution of a field of one component; `result` may equal `field`.
   void apply(const Real* field, Real* result);
-  /// Two components.
+  /// Convolution of a field of two components; each result may equal its field.
   void apply(const std::array<const Real*, 2>& fields, const std::array<Real*, 2>& results);
 
-  /// Where the ny numbers of a row of a component are: in `room`, which takes ny numbers, or
-  /// elsewhere; nullptr: all are zero.
+  /// Returns the ny numbers of a row of a component, either written into `buffer`, which has space
+  /// for ny numbers, or stored elsewhere; nullptr means that all are zero.
   using RowSource = std::function<const Real*(int component, Index row, Real* buffer)>;
-  /// Takes the ny numbers of a row of a component of the result, which are gone afterwards.
+  /// Receives the ny numbers of a row of a component of the result, which are valid only during the
+  /// call.
   using RowSink = std::function<void(int component, Index row, const Real* values)>;
-  /// Fields and results that are nowhere as a whole: each row is asked for once and handed over
-  /// once, by any thread and in any order, all of the fields before any of the results. Rows of
-  /// zeros cost less than others.
+  /// Convolution of fields that are not stored as a whole. Each row is requested from `source` once
+  /// and delivered to `sink` once, by any thread and in any order; all requests precede the first
+  /// delivery. Rows of zeros cost less than others.
   void apply(const RowSource& source, const RowSink& sink);
 
  private:
@@ -80,7 +86,8 @@ class Convolution2D {
 extern template class Convolution2D<float>;
 extern template class Convolution2D<double>;
 
-/// Least n >= size of the form 2^a 3^b 5^c (even if size > 1): transforms of such lengths are fast.
+/// Smallest even n >= size of the form 2^a 3^b 5^c (1 for size <= 1), for which Fourier transforms
+/// are fast.
 Index fast_transform_size(Index size);
 
 }  // namespace salebra

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Refusals: the parts of one and the checks that all modules share.
+// Errors of invalid input: their parts, and the checks that all modules share.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -9,8 +9,8 @@
 namespace salebra {
 namespace {
 
-// Bytes: a value may be a whole file that was given in the place of a number, and a demand quotes
-// it.
+// Maximum bytes of the field's name, of its value and of the demand in an error message. Without
+// these limits, a whole file given in place of a number would be quoted.
 constexpr std::size_t longest_part = 255, longest_demand = 1000;
 
 std::string joined(const std::string& first, std::string_view between, const std::string& second) {

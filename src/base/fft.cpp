@@ -24,8 +24,8 @@ struct RealFft2D<Real>::Plans {
     const auto complex = detail::fftw_array<typename Api::Complex>(modes);
     const auto real = detail::fftw_array<Real>(2 * modes);
     // FFTW_ESTIMATE does not touch the arrays and, unlike FFTW_MEASURE, chooses the same plan in
-    // every run. FFTW_UNALIGNED costs up to half of the speed, but one plan serves every array: a
-    // second, aligned one would let the bits depend on an address.
+    // every run. FFTW_UNALIGNED costs up to half of the speed, but lets one plan serve every array:
+    // with a second plan for aligned arrays, the bits would depend on an address.
     const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
     forward = detail::plan<Real>([&] {
       return Api::plan_r2c_2d(static_cast<int>(nx), static_cast<int>(ny), real.get(), complex.get(),
@@ -58,7 +58,8 @@ Index RealFft2D<Real>::ny() const {
 
 template <class Real>
 void RealFft2D<Real>::forward(const Real* field, std::complex<Real>* modes) {
-  // FFTW_PRESERVE_INPUT: the cast only satisfies FFTW's signature.
+  // The plan has FFTW_PRESERVE_INPUT, so FFTW does not write to `field`; the cast only satisfies
+  // FFTW's signature.
   detail::Fftw<Real>::execute_r2c(plans_->forward.get(), const_cast<Real*>(field),
                                   reinterpret_cast<typename detail::Fftw<Real>::Complex*>(modes));
 }

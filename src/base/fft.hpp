@@ -10,10 +10,10 @@ namespace salebra {
 /// Real two-dimensional discrete Fourier transform, unnormalised in both directions:
 ///     forward:  F(i, j) = Σ_ab f(a, b) exp(−2πi(ia/nx + jb/ny)),  i = 0 … nx−1, j = 0 … ny/2
 ///     backward: f(a, b) = Σ_ij F(i, j) exp(+2πi(ia/nx + jb/ny)) over the full Hermitian spectrum,
-/// so that backward(forward(f)) = nx·ny·f. Fields are (nx, ny), half-spectra (nx, ny/2+1), both x
-/// first and contiguous. The result has the same bits for every thread count. Real is float or
-/// double. Planning is serialised inside (FFTW's planner is not thread-safe); forward() of one
-/// object may run in several threads at once, backward() in one.
+/// hence backward(forward(f)) = nx·ny·f. Fields are (nx, ny), half-spectra (nx, ny/2+1), both
+/// contiguous with x as the first index. The result has the same bits for every thread count. Real
+/// is float or double. FFTW's planner is not thread-safe, so planning is serialised. Several
+/// threads may call forward() of one object at once, but only one thread backward().
 template <class Real>
 class RealFft2D {
  public:
@@ -26,9 +26,9 @@ class RealFft2D {
   Index ny() const;
   Index modes_y() const { return ny() / 2 + 1; }
 
-  /// field (nx, ny) is kept, modes (nx, ny/2+1) is overwritten.
+  /// Reads field (nx, ny) and overwrites modes (nx, ny/2+1).
   void forward(const Real* field, std::complex<Real>* modes);
-  /// modes is destroyed, field is overwritten.
+  /// Destroys modes and overwrites field.
   void backward(std::complex<Real>* modes, Real* field);
 
  private:

@@ -13,11 +13,10 @@
 
 namespace salebra::detail {
 
-// FFTW's planner, and only its planner, is shared state: one lock around making and destroying
-// plans.
+// Only FFTW's planner has shared state; this lock guards making and destroying plans.
 std::mutex& fftw_planner_mutex();
 
-// The two precisions of FFTW behind one set of names.
+// FFTW's functions for float and double under one set of names.
 template <class Real>
 struct Fftw;
 
@@ -69,12 +68,12 @@ template <class Real>
 using FftwPlan =
     std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
 
-// Whether a plan was begun and not ended: a program that turns FFTW's lack of memory into an
-// exception leaves the planner's tables half-way.
+// Whether an exception interrupted the making of a plan: a program may turn FFTW's lack of memory
+// into an exception, which leaves the tables of FFTW's planner inconsistent.
 template <class Real>
 inline bool planner_is_broken = false;
 
-// Runs `make` under the planner's lock.
+// Calls `make`, which returns a plan of FFTW, under the lock of FFTW's planner.
 template <class Real, class Make>
 FftwPlan<Real> plan(Make make) {
   typename Fftw<Real>::Plan made = nullptr;
@@ -89,14 +88,16 @@ FftwPlan<Real> plan(Make make) {
   return FftwPlan<Real>(made);
 }
 
-// As FFTW's widest SIMD code wants it. fftw_malloc would end the process where there is no memory.
+// Alignment for FFTW's widest SIMD code. fftw_malloc is not used because it would end the process
+// if memory runs out.
 inline constexpr std::align_val_t fftw_alignment{64};
 
 struct ReleaseFftw {
   void operator()(void* memory) const { ::operator delete(memory, fftw_alignment); }
 };
 
-// Not initialised, so that the thread that writes a page first also owns it.
+// An array that is not initialised: each memory page is placed near the processor of the thread
+// that first writes to the page.
 template <class Element>
 using FftwArray = std::unique_ptr<Element[], ReleaseFftw>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Validity of a grid, count of undefined points of a surface, and the demand for complete data.
+// Validity of a grid, number of undefined points of a surface, and the check for complete data.
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
@@ -35,12 +35,13 @@ void Surface::require_complete(const std::string& purpose) const {
 
 void Surface::require_complete_rows(const std::string& purpose) const {
   grid.validate();
-  const Index rows = share().count();
+  const Index rows = partition().count();
   require(
       heights.rows() == rows && heights.cols() == grid.ny, "heights",
       std::to_string(heights.rows()) + " x " + std::to_string(heights.cols()),
       "must have the shape of the grid, " + std::to_string(rows) + " x " + std::to_string(grid.ny));
-  // One pass for the usual case; what is wrong matters only where something is.
+  // Valid heights, the common case, take one pass; undefined and infinite heights are told apart
+  // only if one of them occurs.
   const double wrong = parallel::sum_blocks(
       rows,
       [&](Index begin, Index end) {

@@ -9,22 +9,24 @@
 
 namespace salebra {
 
-/// Tells a Progress of a parallel loop, from the thread that made this object alone, and lets every
-/// thread know that it said stop. A loop leaves its results incomplete then, and finish() after it
-/// throws.
+/// Reports the progress of a parallel loop, only from the thread that made this object, and tells
+/// every thread when the callback asks to stop. The loop then leaves its results incomplete, and
+/// finish() throws.
 class LoopProgress {
  public:
-  /// items: of the whole loop. from, to: the fractions of the stage at its beginning and end.
-  /// progress must outlive the object.
+  /// items     number of items of the whole loop
+  /// from, to  fractions of the stage at the beginning and end of the loop
+  /// progress  must outlive this object
   LoopProgress(const Progress& progress, std::string_view stage, Index items, double from = 0,
                double to = 1);
 
-  /// False once it was stopped: slabs that begin afterwards have nothing to do.
+  /// False after the callback has asked to stop: slabs that have not begun need not do anything.
   bool running() const { return !stopped_; }
-  /// So many more items are done, by any thread. False: leave the loop.
+  /// Counts `items` more finished items; any thread may call it. Returns false if the loop should
+  /// end.
   bool advance(Index items = 1);
-  /// Tells that all is done, which a loop may be before the thread that tells has had a part in it.
-  /// Throws Interrupted "<stage>: interrupted" where the answer, or one before it, was stop.
+  /// Reports the end of the loop, which other threads may have reached before this thread reported
+  /// anything. Throws Interrupted "<stage>: interrupted" if the callback has asked to stop.
   void finish();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Large-page allocation, uninitialised fields, and the memory that the machine has available.
+// Large-page allocation, uninitialised fields, and the memory available on the machine.
 #include "memory.hpp"
 
 #include <fmt/format.h>
@@ -22,12 +22,12 @@ namespace salebra {
 
 namespace {
 
-constexpr double not_asked_for = 64e6;  // bytes
+constexpr double not_asked_for = 64e6;  // bytes: smaller demands are granted
 constexpr std::size_t large_page = std::size_t(2) << 20;
 
 void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-  // Advice only: what the system makes of it changes no result, hence the status is of no use.
+  // The status of madvise() is ignored: large pages change the speed, not the results.
   constexpr std::uintptr_t page = 4096;
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const auto begin = (address + page - 1) / page * page, end = (address + bytes) / page * page;
@@ -41,7 +41,8 @@ void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t cache_line = 64;
   const std::size_t alignment = bytes >= 2 * large_page ? large_page : cache_line;
-  // The standard wants a multiple of the alignment; what is beyond `bytes` is never touched.
+  // aligned_alloc() requires a multiple of the alignment; the memory beyond `bytes` is never
+  // touched.
   void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   if (!memory) throw std::bad_alloc();
   advise_large_pages(memory, (bytes + cache_line - 1) / cache_line * cache_line);
@@ -67,7 +68,7 @@ void touch_pages(Field& field) {
 std::size_t available_memory() {
   if (const auto left = detail::memory_left("/")) return static_cast<std::size_t>(*left);
 #if defined(__linux__)
-  // Without /proc, as in a bare chroot, the memory that the machine has in all is still a limit.
+  // Without /proc, e.g. in a minimal container, the total memory of the machine is still a limit.
   struct sysinfo machine {};
   if (sysinfo(&machine) == 0)
     return static_cast<std::size_t>(machine.totalram) * static_cast<std::size_t>(machine.mem_unit);
@@ -118,9 +119,10 @@ void require_memory(const Grid2D& grid, double bytes, std::string_view work,
   const std::string where =
       memory.nodes > 1 ? fmt::format(" on node {}, one of {},", memory.node, memory.nodes) : "";
   const std::string more =
-      communicator.alone() ? ""
-                    : fmt::format("{:.0f} nodes, or ",
-                                  std::ceil(memory.nodes * memory.needed / memory.available));
+      communicator.alone()
+          ? ""
+          : fmt::format("{:.0f} nodes, or ",
+                        std::ceil(memory.nodes * memory.needed / memory.available));
   throw InvalidInput(
       "points", fmt::format("{} x {}", grid.nx, grid.ny),
       fmt::format("need {} of memory for {}{} and {} are available{}; use {}fewer "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Memory that the machine, the cgroups of this process and its resource limits leave.
+// Memory left by the machine, the cgroups of this process and its resource limits.
 #include "memory_limits.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Bytes = std::optional<std::uint64_t>;
 
-/// The first word of a file as a number; "max", and a file that is not there, are no limit.
+/// The first word of a file as a number; "max" or a missing file mean no limit.
 Bytes number_in(const fs::path& file) {
   std::ifstream stream(file);
   std::uint64_t number = 0;
@@ -26,7 +26,7 @@ Bytes number_in(const fs::path& file) {
   return {};
 }
 
-/// The number that follows a name at the beginning of a line.
+/// The number that follows `name`, in the line of the file that begins with `name`.
 Bytes value_of(const fs::path& file, std::string_view name) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -42,11 +42,11 @@ std::uint64_t difference(std::uint64_t limit, std::uint64_t used) {
   return limit > used ? limit - used : 0;
 }
 
-/// What one version of cgroups calls its files.
+/// Names of the files of one version of cgroups.
 struct Dialect {
   std::vector<const char*> limits;
   const char* usage;
-  std::vector<const char*> file_cache;  // lines of memory.stat
+  std::vector<const char*> file_cache;  // names of lines in memory.stat
 };
 const Dialect version1{{"memory.limit_in_bytes"},
                        "memory.usage_in_bytes",
@@ -76,15 +76,15 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
-/// Where the memory controller is mounted, and which of the hierarchy's folders is mounted there: a
-/// container sees its own alone.
+/// Mount point of the cgroup file system that controls memory, and the folder of the cgroup
+/// hierarchy that is mounted there: a container sees only its own folder.
 struct Mount {
   const Dialect* dialect;
   std::string root, point;
 };
 
-// proc_pid_mountinfo(5): number, parent, device, root, mount point, options, optional fields, "-",
-// type, source, options of the type.
+// Columns of /proc/self/mountinfo by proc_pid_mountinfo(5): number, parent, device, root, mount
+// point, options, optional fields, "-", type, source, options of the type.
 std::vector<Mount> memory_mounts(const fs::path& proc) {
   std::vector<Mount> mounts;
   std::ifstream stream(proc / "self/mountinfo");
@@ -101,8 +101,8 @@ std::vector<Mount> memory_mounts(const fs::path& proc) {
   return mounts;
 }
 
-/// The group of this process, as /proc/self/cgroup has it: "4:memory:/path" in version 1,
-/// "0::/path" in version 2.
+/// The cgroup of this process from /proc/self/cgroup: "4:memory:/path" in version 1, "0::/path" in
+/// version 2.
 std::string group_of(const fs::path& proc, const Dialect& dialect) {
   std::ifstream stream(proc / "self/cgroup");
   for (std::string line; std::getline(stream, line);) {
@@ -119,8 +119,8 @@ std::string group_of(const fs::path& proc, const Dialect& dialect) {
 void take_groups(const fs::path& root, std::vector<std::uint64_t>& left) {
   for (const Mount& mount : memory_mounts(root / "proc")) {
     fs::path group = group_of(root / "proc", *mount.dialect);
-    // A group may not be below what is mounted, as a container may see its own: then the mounted
-    // folder is all that there is.
+    // In a container the group may lie outside the mounted folder; then only the mounted folder can
+    // be read.
     const fs::path below = group.lexically_relative(mount.root);
     group = below.empty() || *below.begin() == ".." ? fs::path() : below;
     const fs::path point = root / fs::path(mount.point).relative_path();
@@ -131,7 +131,8 @@ void take_groups(const fs::path& root, std::vector<std::uint64_t>& left) {
   }
 }
 
-/// RLIMIT_AS and RLIMIT_DATA: the kernel's own words for them, and for what counts towards them.
+/// Appends to `left` what RLIMIT_AS and RLIMIT_DATA leave to the process, in bytes. In the files of
+/// /proc these limits and the memory that they limit have other names.
 void take_process_limits(const fs::path& proc, std::vector<std::uint64_t>& left) {
   for (const auto& [limit, used] :
        {std::pair{"Max address space", "VmSize:"}, {"Max data size", "VmData:"}})
@@ -162,11 +163,12 @@ NodeMemory shortest_memory(const std::vector<ProcessMemory>& processes) {
   std::map<std::string, double> needed;
   for (const ProcessMemory& process : processes) needed[process.node] += process.needed;
   NodeMemory shortest;
-  double most = -1;  // of what is needed over what is available
+  double most = -1;  // maximum of needed/available memory
   for (const ProcessMemory& process : processes) {
     const double of_node = needed[process.node];
     double available = process.shared;
-    // A process that is limited beyond the others of its machine: as if all of them were.
+    // If the limit of one process is below the memory shared by its node, assume that limit for all
+    // processes of the node.
     if (process.own > 0 && process.needed > 0)
       available = std::min(available > 0 ? available : std::numeric_limits<double>::infinity(),
                            process.own * of_node / process.needed);

@@ -18,14 +18,15 @@
 namespace salebra::parallel {
 namespace {
 
-// Enough to balance threads whose slabs hold unlike shares of the contact, few enough that a slab
-// outweighs its scheduling.
+// Number of slabs that a loop makes for each thread: enough to balance threads although contact is
+// spread unevenly, and few enough that the work of a slab exceeds the cost of scheduling it.
 constexpr Index slabs_per_thread = 8;
 
-// Fewer points than this are done before a second thread is awake.
+// Minimum points of a loop that is divided among threads: fewer points are finished before a second
+// thread is awake.
 constexpr Index min_parallel_work = 20000;
 
-// The same for a thread of a pool of tasks, which was asleep.
+// Minimum points of a loop that sleeping threads of a task pool are woken for.
 constexpr Index min_shared_work = 200000;
 
 int chosen_threads = 0;
@@ -56,7 +57,7 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
   detail::StopCheck* const check = detail::StopCheck::current();
   if (work < min_parallel_work || (threads() == 1 && !check)) return body(0, rows);
   if (threads() == 1) {
-    // Slabs, so that the thread looks now and then whether to stop.
+    // Split the rows to check regularly whether to stop.
     const Index slabs = std::min(rows, Index{64});
     for (Index slab = 0; slab < slabs; ++slab) {
       detail::stop_if_asked();
@@ -65,8 +66,7 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
     return;
   }
   if (omp_in_parallel()) {
-    if (work < min_shared_work || !detail::share_slabs(rows, slabs_per_thread, body))
-      body(0, rows);
+    if (work < min_shared_work || !detail::share_slabs(rows, slabs_per_thread, body)) body(0, rows);
     return;
   }
   const Index slabs = std::min(rows, slabs_per_thread * threads());

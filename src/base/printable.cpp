@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Escapes for what a terminal would obey.
+// Escapes control characters that a terminal would obey.
 #include "printable.hpp"
 
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 namespace salebra {
 namespace {
 
-/// Bytes of the UTF-8 character that the text begins with; 0 where it begins with none, or with a
-/// control character.
+/// Number of bytes of the UTF-8 character at the start of the text; 0 for a control character or an
+/// invalid one.
 std::size_t character_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   if (lead < 0x80) return lead >= ' ' && lead != 0x7f;
@@ -50,7 +50,7 @@ std::string shortened(std::string_view text, std::size_t most) {
   constexpr std::string_view gap = "\u2026";
   if (text.size() <= most) return std::string(text);
   const std::size_t kept = most - std::min(most, gap.size());
-  // Both cuts move away from the middle of a character.
+  // The two places where the text is cut move outwards to the boundary of a character.
   const auto inside = [&](std::size_t at) { return (text[at] & 0xc0) == 0x80; };
   std::size_t end = kept - kept / 3, begin = text.size() - kept / 3;
   while (end > 0 && inside(end)) --end;

@@ -5,9 +5,9 @@
 
 namespace salebra::detail {
 
-/// GSL's handler of errors ends the program: underflow of a Bessel function, an allocation that
-/// fails. Without it they are statuses, and the caller answers for each. Switched off once; a
-/// program that sets a handler of its own afterwards keeps it.
+/// Switches GSL's error handler off, once. The handler would end the program on an underflow of a
+/// Bessel function or a failed allocation. Without a handler, GSL returns a status that the caller
+/// must check. A handler that a program sets later stays in effect.
 inline void quiet_gsl() {
   static const auto previous_handler = gsl_set_error_handler_off();
   static_cast<void>(previous_handler);

@@ -13,8 +13,9 @@ struct Words {
   std::uint32_t w0, w1, w2, w3;
 };
 
-// Random123's philox4x32_R(10, …) with its array of four words spelt out, since compilers do not
-// vectorise a loop over that array. The tests hold the two against each other.
+// Computes the random bits of Random123's philox4x32_R(10, …), with single variables in place of
+// its array of four words, because compilers do not vectorise a loop over that array. A test
+// compares this function with Random123's.
 SALEBRA_INLINE Words philox(std::uint64_t seed, std::int32_t i, std::int32_t j,
                             std::uint32_t stream) {
   Words w{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), stream, 0};
@@ -34,15 +35,15 @@ SALEBRA_INLINE Words philox(std::uint64_t seed, std::int32_t i, std::int32_t j,
   return w;
 }
 
-// The upper 52 bits as the mantissa of a number in [1, 2), less 1, plus half a step: exact
-// throughout.
+// Uses the upper 52 bits as the mantissa of a number in [1, 2), subtracts 1 and adds half a step;
+// every operation is exact.
 SALEBRA_INLINE double open_unit_interval(std::uint32_t low, std::uint32_t high) {
   const std::uint64_t word = static_cast<std::uint64_t>(high) << 32 | low;
   return (std::bit_cast<double>(word >> 12 | 0x3FF0000000000000u) - 1.0) + 0x1p-53;
 }
 
-// cos 2πu, sin 2πu for u in (0, 1): the nearest quarter turn is split off exactly, and the rest, at
-// most an eighth of a turn, goes into Taylor series whose first terms left out are below 1e-16.
+// cos 2πu and sin 2πu for u in (0, 1). The nearest multiple of a quarter turn is split off exactly;
+// the remaining angle, at most an eighth of a turn, goes into Taylor series truncated below 1e-16.
 SALEBRA_INLINE RandomPair turn(double u) {
   const double lifted = 4.0 * u + detail::round_by_adding;
   const std::uint64_t quarter = std::bit_cast<std::uint64_t>(lifted);

@@ -6,22 +6,22 @@
 
 namespace salebra::detail {
 
-/// Processor time of the calling thread, s. Cost: a call of the system, about 0.3 µs.
+/// Processor time of the calling thread, s. Cost: a system call, about 0.3 µs.
 inline double thread_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Hears of each parallel region as it ends, in the thread that began it.
-/// begun    thread_seconds() of that thread at the begin
-/// parts    processor seconds of the slabs, in the order in which threads took them, or of the
-///          threads of a loop over tasks
-/// tasks    whether it was such a loop
+/// Callback at the end of each parallel region, in the thread that began it.
+/// begun  thread_seconds() of that thread at the beginning
+/// parts  processor seconds of each slab, in the order in which threads took them, or of each
+///        thread of a loop over tasks
+/// tasks  whether the region was a loop over tasks
 using RegionReport = void (*)(double begun, std::span<const double> parts, bool tasks);
 
-/// Null, as at the start: nothing is measured, which costs a comparison for each region. Set by
-/// bench/scaling/threads.cpp alone, while no region runs.
+/// Null by default: nothing is measured, at the cost of a comparison per region. Only
+/// bench/scaling/threads.cpp sets it, while no region runs.
 inline RegionReport region_report = nullptr;
 
 }  // namespace salebra::detail

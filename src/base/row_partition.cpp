@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a field over processes: who holds which, their way to other processes, and sums over all
-// of them.
+// Distribution of the rows of a field over processes, exchange of rows, and sums over all
+// processes.
 #include <algorithm>
 #include <complex>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 
 #include "memory.hpp"
 
 namespace salebra {
 namespace {
 
-constexpr Index min_unit = 16;  // the rows that a transform pairs
+constexpr Index min_unit = 16;  // transforms pair rows within a block of this size
 
-std::vector<Index> block_begins(int communicator, Index rows, Index least) {
+std::vector<Index> block_begins(int processes, Index rows, Index least) {
   const Index unit = std::max(min_unit, parallel::block_rows(rows)),
               blocks = (rows + unit - 1) / unit,
-              in_use = std::clamp<Index>(rows / std::max(least, unit), 1, communicator);
+              in_use = std::clamp<Index>(rows / std::max(least, unit), 1, processes);
   std::vector<Index> begins;
-  for (Index rank = 0; rank <= ranks; ++rank)
+  for (Index rank = 0; rank <= processes; ++rank)
     begins.push_back(rank < in_use ? std::min(rows, unit * (blocks * rank / in_use)) : rows);
   return begins;
 }
@@ -42,10 +42,11 @@ RowExchange::RowExchange(const RowPartition& from, const std::function<Window(in
                          Edge edge)
     : communicator_(from.communicator()) {
   const Index rows = from.rows();
-  const int me = communicator_.rank(), count = communicator_.communicator();
+  const int me = communicator_.rank(), count = communicator_.size();
   sent_counts_.assign(static_cast<std::size_t>(count), 0);
   received_counts_ = sent_counts_;
-  // The row of the field that stands for one of a window; −1: none.
+  // Index of the field's row that serves as a row of the window (wrapped or clamped at the edge);
+  // −1 if there is none.
   const auto row_of = [&](Index row) {
     if (row >= 0 && row < rows) return row;
     if (edge == Edge::none || rows == 0) return Index(-1);
@@ -138,7 +139,8 @@ Field gathered(const RowPartition& rows, const Field& mine, int root) {
     for (int rank = 0; rank < communicator.size(); ++rank)
       received[static_cast<std::size_t>(rank)] = rows.end_of(rank) - rows.begin_of(rank);
   const std::size_t row_bytes = static_cast<std::size_t>(mine.cols()) * sizeof(double);
-  communicator.exchange({row_bytes, std::move(sent), std::move(received)}, mine.data(), whole.data());
+  communicator.exchange({row_bytes, std::move(sent), std::move(received)}, mine.data(),
+                        whole.data());
   return whole;
 }
 
@@ -164,7 +166,7 @@ Field scattered(const RowPartition& rows, Index columns, const Field& whole) {
 
 namespace {
 
-// The columns that each process gets together.
+// Divides the columns of each process into batches.
 struct Batches {
   const RowPartition& rows;
   const RowPartition& columns;
@@ -175,7 +177,8 @@ struct Batches {
         columns(of_columns),
         group(std::max<Index>(16, parallel::block_rows(columns.rows()))) {
     const Index ranks = rows.communicator().size();
-    // Two buffers of so many columns, and 64 groups for the threads.
+    // A batch is limited by the buffers for the columns sent and received, and to 64 groups, which
+    // suffice to keep all threads busy.
     at_once = group * std::clamp<Index>(columns.rows() / (2 * ranks * group), 1,
                                         rows.communicator().alone() ? 1 : 64);
     for (int rank = 0; rank < ranks; ++rank)
@@ -198,8 +201,8 @@ struct Batches {
   }
 };
 
-// part(row over all processes, first, count, room): where the numbers of a row are. Visits the
-// columns first … first + width − 1 of this process.
+// Calls visit for the columns first … first + width − 1 of this process. part(row among those of
+// all processes, first column, number of columns, buffer) returns the numbers of a row.
 template <class Value, class Part, class Visit>
 void visit_groups(const Batches& batches, Index first, Index width, const Part& part,
                   const Visit& visit) {
@@ -243,7 +246,7 @@ void visit_columns(const RowPartition& rows, const RowPartition& columns,
   for (Index batch = 0; batch < batches.count; ++batch) {
     const Exchange plan = batches.exchange<Value>(batch);
     collectively(communicator, [&] {
-      if (batch == 0) {  // no later batch is larger
+      if (batch == 0) {  // later batches are not larger
         sent = large_array<Value>(static_cast<std::size_t>(plan.sent_units()));
         received = large_array<Value>(static_cast<std::size_t>(plan.received_units()));
       }
@@ -257,7 +260,7 @@ void visit_columns(const RowPartition& rows, const RowPartition& columns,
     });
     communicator.exchange(plan, sent.get(), received.get());
     collectively(communicator, [&] {
-      // The processes' parts follow one another, hence the rows do.
+      // The parts of the processes follow each other in memory, so the rows are in order.
       const Index width = batches.width(me, batch);
       visit_groups<Value>(
           batches, batches.first(me, batch), width,
@@ -279,7 +282,8 @@ template void visit_columns<std::complex<double>>(
 
 namespace parallel {
 
-double sum_blocks(const RowPartition& partition, const std::function<double(Index, Index)>& body, Index work) {
+double sum_blocks(const RowPartition& partition, const std::function<double(Index, Index)>& body,
+                  Index work) {
   double sum = 0;
   for (const double value : map_blocks<double>(partition, body, work)) sum += value;
   return sum;
@@ -299,7 +303,8 @@ std::vector<double> add_blocks(const RowPartition& partition, std::size_t count,
   const Communicator& communicator = partition.communicator();
   const auto blocks = static_cast<std::size_t>(own_blocks(partition, partition.count())),
              blocks_of_all = static_cast<std::size_t>(block_count(partition.rows()));
-  // A part of the numbers of all blocks is gathered at a time, 32 MB.
+  // To limit the memory, the numbers of the blocks are gathered from all processes in portions of
+  // at most 32 MB.
   const std::size_t most =
       std::max<std::size_t>(1, (std::size_t{1} << 22) / std::max<std::size_t>(blocks_of_all, 1));
   std::vector<double> sums(count, 0.0), sent, gathered;
@@ -312,9 +317,9 @@ std::vector<double> add_blocks(const RowPartition& partition, std::size_t count,
     }
     std::vector<std::size_t> bytes;
     for (int rank = 0; rank < communicator.size(); ++rank)
-      bytes.push_back(
-          static_cast<std::size_t>(own_blocks(partition, partition.end_of(rank) - partition.begin_of(rank))) *
-          part * sizeof(double));
+      bytes.push_back(static_cast<std::size_t>(own_blocks(
+                          partition, partition.end_of(rank) - partition.begin_of(rank))) *
+                      part * sizeof(double));
     gathered.resize(blocks_of_all * part);
     communicator.gather_all(sent.data(), bytes, gathered.data());
     for (std::size_t k = 0; k < gathered.size(); ++k) sums[first + k % part] += gathered[k];
@@ -325,7 +330,8 @@ std::vector<double> add_blocks(const RowPartition& partition, std::size_t count,
 std::vector<double> sum_blocks(const RowPartition& partition, std::size_t count,
                                const std::function<void(Index, Index, std::span<double>)>& body) {
   partition.communicator().broadcast(&count, sizeof count);
-  const Index size = block_rows(partition.rows()), blocks = own_blocks(partition, partition.count());
+  const Index size = block_rows(partition.rows()),
+              blocks = own_blocks(partition, partition.count());
   std::vector<double> mine(static_cast<std::size_t>(blocks) * count, 0.0);
   for_slabs(blocks, [&](Index begin, Index end) {
     for (Index block = begin; block < end; ++block)

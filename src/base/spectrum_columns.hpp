@@ -8,8 +8,8 @@
 
 namespace salebra::detail {
 
-/// The columns 0 … period_y/2 of a symbol that each process of a Convolution2D has, whose fields
-/// are spread by `rows`. Processes without rows have no columns either.
+/// Distributes the columns 0 … period_y/2 of the symbols of a Convolution2D whose fields are
+/// distributed by `rows`. A process without rows has no columns.
 inline RowPartition spectrum_columns(const RowPartition& rows, Index period_y) {
   const Index columns = period_y / 2 + 1;
   Index in_use = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Choice of the convolution's vectorised passes for the processor at hand.
+// Chooses the vectorised passes of the convolution for this processor.
 #include "spectrum_kernels.hpp"
 
 #include "vector_width.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included once for each instruction set, with SALEBRA_SIMD naming it.
+// Included once for each instruction set, which SALEBRA_SIMD names.
 #include "spectrum_kernels.hpp"
 
 #define SALEBRA_INLINE inline __attribute__((always_inline))
@@ -8,8 +8,8 @@ namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
 
-// Columns are so far apart that the prefetcher does not predict them: prefetch this many columns
-// ahead.
+// Columns are too far apart for the processor's automatic prefetching, so the program prefetches
+// this many columns ahead.
 inline constexpr Size ahead = 32;
 
 template <class Real>
@@ -68,9 +68,9 @@ void to_rows(const Real* columns, Size column_stride, Size count, Real* rows, Si
   }
 }
 
-// A register of complex numbers. A block of eight is one cache line in float, and the halves of a
-// block of sixteen are read and written together; plain loops over eight numbers at a time are
-// slower.
+// A vector register of complex numbers. Eight complex numbers of float fill a cache line, and the
+// halves of a block of sixteen are read and written together. Plain loops over eight numbers are
+// slower than these registers.
 template <class Real>
 struct Register {
 #if defined(__AVX512F__)
@@ -82,7 +82,7 @@ struct Register {
 #endif
   typedef Real Vector __attribute__((vector_size(bytes)));
   static constexpr int lanes = bytes / static_cast<int>(sizeof(Real)),
-                       in_eight = 16 / lanes;  // registers that eight numbers take
+                       in_eight = 16 / lanes;  // registers per eight complex numbers
 
   static SALEBRA_INLINE Vector load(const Real* offset) {
     Vector numbers;
@@ -92,7 +92,7 @@ struct Register {
   static SALEBRA_INLINE void store(Vector numbers, Real* offset) {
     __builtin_memcpy(offset, &numbers, bytes);
   }
-  // Real and imaginary parts exchanged.
+  // Exchanges real and imaginary parts.
   static SALEBRA_INLINE Vector swapped(Vector v) {
     if constexpr (lanes == 16) {
       return __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
@@ -104,7 +104,7 @@ struct Register {
       return __builtin_shufflevector(v, v, 1, 0);
     }
   }
-  // A number times these has its imaginary part negated; a product with ±1 is exact.
+  // Factors that negate imaginary parts; a product with ±1 is exact.
   static SALEBRA_INLINE Vector conjugating() {
     Vector signs;
     for (int lane = 0; lane < lanes; ++lane) signs[lane] = lane % 2 == 0 ? Real(1) : Real(-1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looks, from inside long loops, whether the caller wants the work to end.
+// Checks inside long loops whether the caller wants the work to stop.
 #include "stop_check.hpp"
 
 #include <ctime>
@@ -9,7 +9,7 @@
 namespace salebra::detail {
 namespace {
 
-/// A clock that costs a few nanoseconds and ticks every few milliseconds.
+/// A clock that ticks every few milliseconds and costs only a few nanoseconds.
 long long milliseconds() {
   std::timespec now = {};
   clock_gettime(CLOCK_MONOTONIC_COARSE, &now);

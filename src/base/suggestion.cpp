@@ -10,7 +10,8 @@ namespace salebra {
 namespace {
 
 std::size_t edits(std::string_view a, std::string_view b) {
-  // Rows of the table of distances between beginnings: the last, and the one before it for swaps.
+  // Rows of the table of edit distances: the current row, the last one, and the one before the
+  // last, which swaps of two letters need.
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -27,9 +28,9 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// What else options, keys and commands are called: in other programs, on paper, or in version
-/// 0.1.0. Options have "--" and dashes. Where none of the names of a line is known, the
-/// next line of the word counts.
+/// Other words for options, keys and commands: from other programs, from the literature, or from
+/// version 0.1.0. Options begin with "--" and contain dashes. If a program knows none of the names
+/// in a line, the next line with the same word is used.
 struct Synonym {
   std::string_view word;
   std::array<std::string_view, 3> names;
@@ -42,8 +43,11 @@ constexpr Synonym synonyms[]{
     {"force", {"overwrite"}},
     {"friction", {"friction_coefficient"}},
     {"full_stick_work", {"work_per_cycle_without_slip"}},
+    {"largest_amplitude", {"max_amplitude"}},
     {"level_error", {"interval_error"}},
+    {"levels", {"intervals"}},
     {"load", {"normal_force", "pressure", "pressures"}},
+    {"most_cycles", {"max_cycles"}},
     {"mu", {"friction_coefficient", "friction"}},
     {"nu", {"poisson"}},
     {"precision", {"target_precision"}},
@@ -53,13 +57,14 @@ constexpr Synonym synonyms[]{
     {"scatter_error", {"noise_error"}},
     {"separation", {"mean_gap"}},
     {"separations", {"mean_gap"}},
+    {"smallest_force", {"min_force"}},
     {"small_damping_constant", {"small_amplitude_damping_constant"}},
     {"small_work_per_cycle", {"small_amplitude_work"}},
     {"summits", {"model"}},
     {"velocity", {"drag_velocity", "velocities"}},
 };
 
-/// Returns the key with the name of an option, in lower case.
+/// Converts the name of an option to the name of its key, in lower case.
 std::string key_of(std::string_view name) {
   std::string key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
   for (char& symbol : key)
@@ -70,7 +75,7 @@ std::string key_of(std::string_view name) {
   return key;
 }
 
-/// The names that the word is another word for.
+/// The known names that the word is a synonym of.
 std::vector<std::string> names_for(std::string_view word, const std::vector<std::string>& names) {
   const std::string key = key_of(word);
   std::vector<std::string> found;
@@ -87,7 +92,8 @@ std::vector<std::string> names_for(std::string_view word, const std::vector<std:
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
   if (const auto meant = names_for(word, names); !meant.empty()) return meant.front();
-  // Shorter beginnings say too little, and words of two letters are all alike.
+  // Minimum length of a beginning of a name: shorter beginnings are ambiguous, and words of two
+  // letters all resemble each other.
   constexpr std::size_t min_beginning = 3;
   const std::size_t limit = word.size() / 3;
   std::size_t least = limit + 1;

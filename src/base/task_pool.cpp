@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads of a loop of tasks, of the loops inside its tasks, and of their slabs.
+// Threads that share the tasks of a loop, of loops inside its tasks, and their slabs.
 #include "task_pool.hpp"
 
 #include <omp.h>
@@ -19,13 +19,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// So deep are slabs, inside of all loops.
+// Depth of slabs, larger than that of any loop, because slabs are inside all loops.
 constexpr int depth_of_slabs = 1 << 20;
 
 struct Here {
   TaskPool* pool = nullptr;
-  TaskLoop* loop = nullptr;  // that this thread called last
-  int depth = 0;             // of the next loop that it calls
+  TaskLoop* loop = nullptr;  // the last loop that this thread called
+  int depth = 0;             // depth of the next loop that this thread calls
 };
 thread_local Here here;
 
@@ -42,21 +42,22 @@ class Within {
 
 }  // namespace
 
-/// The threads of an outermost loop, on its caller's stack. They are those of OpenMP, which binds
-/// them as it was told to. One lock guards who does what; tasks run without it. What a task wrote is
-/// seen by the caller of its loop, which takes the lock after the task's thread has released it. A
-/// thread that waits is in free_, and is taken out by whoever wakes it: no wake is lost or given to
-/// a thread that may not take what there is.
+/// The threads of an outermost loop; the pool is on the stack of the loop's caller. The threads are
+/// those of OpenMP, which binds them as configured. One lock guards the assignment of tasks; tasks
+/// run without it. The caller of a loop sees the results of a task because it takes the lock after
+/// the task's thread has released it. A waiting thread is in free_, and whoever wakes it removes
+/// it, so no wake-up is lost or goes to a thread that may not take the available task.
 class TaskPool {
  public:
   TaskPool() {
-    // A thread calls at most one loop in each of three depths; nothing may throw below.
+    // A thread calls at most one loop at each of three depths. Reserve now: nothing below may
+    // throw.
     const auto most = 4 * static_cast<std::size_t>(parallel::max_threads());
     open_.reserve(most);
     free_.reserve(most);
   }
 
-  /// A thread without a task, until end().
+  /// Lets a thread that has no task of its own take tasks of any loop, until end().
   void serve() {
     std::unique_lock lock(guard_);
     Waiter waiter{.min_depth = 0};
@@ -74,13 +75,13 @@ class TaskPool {
     free_.clear();
   }
 
-  /// run() of a loop, by the thread that called it.
+  /// Runs a loop in the thread that called it.
   void run(TaskLoop& loop) {
     loop.tell();
     std::unique_lock lock(guard_);
     open_.push_back(&loop);
     Waiter waiter{.min_depth = loop.depth_ + 1, .own = &loop};
-    // The calling thread takes the first task itself.
+    // The calling thread takes the first task itself, and wakes free threads for the others.
     call(loop, loop.count_ - 1);
     for (;;) {
       if (loop.accepts_more()) {
@@ -104,14 +105,14 @@ class TaskPool {
 
  private:
   struct Waiter {
-    int min_depth = 0;  // of the loops that it may take part in
+    int min_depth = 0;  // minimum depth of the loops that this thread may join
     const TaskLoop* own = nullptr;
     bool woken = false;
     std::condition_variable changed = {};
   };
 
-  /// The loop that the next free thread takes a task of: the inner before the outer, slabs last,
-  /// and of like ones that which began first.
+  /// The loop that the next free thread joins: inner loops before outer ones, slabs last, and among
+  /// equals the loop that began first.
   TaskLoop* pick(int min_depth) const {
     const auto rank = [](const TaskLoop& loop) {
       return loop.depth_ == depth_of_slabs ? -1 : loop.depth_;
@@ -128,19 +129,20 @@ class TaskPool {
     ++loop.running_;
     lock.unlock();
     {
-      // A thread that helps while its own loop waits goes on talking for that one.
+      // A thread that helps while its own loop waits still reports for its own loop.
       const Within the_task({here.pool, here.loop, loop.depth_ + 1});
       loop.perform(task);
     }
     lock.lock();
     --loop.running_;
-    // Its caller may have to be told, or takes the task that there is room for now.
+    // The caller of the loop may need a wake-up to report or finish; otherwise call a thread for
+    // the next task.
     for (std::size_t k = 0; k < free_.size(); ++k)
       if (free_[k]->own == &loop) return release(k);
     if (loop.accepts_more()) call(loop, 1);
   }
 
-  /// Wakes so many free threads for a loop.
+  /// Wakes up to `wanted` free threads so that they join a loop.
   void call(const TaskLoop& loop, Index wanted) {
     for (std::size_t k = free_.size(); k-- > 0 && wanted > 0;)
       if (free_[k]->min_depth <= loop.depth_) {
@@ -173,8 +175,8 @@ class TaskPool {
   }
 
   std::mutex guard_;
-  std::vector<TaskLoop*> open_;  // in the order of their beginnings
-  std::vector<Waiter*> free_;    // the last to wait is the first to be woken
+  std::vector<TaskLoop*> open_;  // in the order in which they began
+  std::vector<Waiter*> free_;    // the last to wait is woken first
   std::atomic<int> free_count_ = 0;
   bool over_ = false;
 };
@@ -228,8 +230,8 @@ bool TaskLoop::going_on() {
 
 void TaskLoop::one_by_one() {
   for (Index task = 0; task < count_; ++task) {
-    // One process may have been told to stop where the others were not. One that failed calls them
-    // no more.
+    // One process may have been stopped while the others were not. A process that failed agrees on
+    // nothing more.
     if (failure_ || !options_.communicator.all_agree(!stopped_)) stopped_ = true;
     if (stopped_ || closed_) return;
     perform(task);
@@ -275,7 +277,7 @@ bool share_slabs(Index rows, Index slabs_per_thread,
   loop.run(threads, [&](Index) {
     for (Index slab = next++; slab < slabs; slab = next++)
       body(rows * slab / slabs, rows * (slab + 1) / slabs);
-    loop.close();  // a thread that wakes now has come too late
+    loop.close();  // threads that wake from now on find no task
   });
   return true;
 }

@@ -14,25 +14,27 @@ namespace salebra::detail {
 
 class TaskPool;
 
-/// A loop over tasks that take long: the contacts of a sweep, the surfaces of a study. Tasks begin
-/// in their order, so the longest should be first. Each writes to a place of its own: results are in
-/// order, with the same bits for every number of threads.
+/// A loop over long tasks: the contacts of a sweep, the surfaces of a study. Tasks begin in their
+/// order, so the longest should come first. Each task writes to its own index; results are in order
+/// and have the same bits for every number of threads.
 ///
-/// A task may run a loop of its own. Threads that have no task left take tasks of such loops, those
-/// of the loop that began first, and where there are none, slabs of parallel::for_slabs(): few tasks
-/// get teams of threads. The next task of the outer loop begins only when no task of an inner one
-/// waits for a thread, so that no more of them are open than there are threads.
+/// A task may run a loop of its own. Threads without a task take tasks of such inner loops,
+/// beginning with the loop that began first; if there are none, they take slabs of
+/// parallel::for_slabs(). A few tasks thus get several threads each. The next task of the outer
+/// loop begins only when no task of an inner loop waits for a thread, so at most as many outer
+/// tasks are open as there are threads.
 class TaskLoop {
  public:
   struct Options {
-    int at_once = 0;  ///< most tasks side by side, 1: in the calling thread; 0: one for each thread
-    /// The processes that make the loop together. Of several, each does a task at a time, and
-    /// begins another only where all go on.
+    int at_once = 0;  ///< maximum number of parallel tasks; 1: in the calling thread; 0: one per
+                      ///< thread
+    /// The processes that run the loop together. If there are several, each runs one task at a time
+    /// and begins the next only if all of them go on.
     Communicator communicator = {};
-    /// Called by the calling thread alone: at the beginning, when a task on it asks going_on() and
-    /// the last call is a millisecond ago, after each such task, every 20 ms while it waits for
-    /// others, and at the end. False stops the loop, and so does what it throws, which run() throws
-    /// on.
+    /// Called only by the thread that called run(): at the beginning; when a task on this thread
+    /// asks going_on() and the last call of `talk` is at least a millisecond ago; after each task
+    /// of this thread; every 20 ms while the thread waits for others; and at the end. The loop
+    /// stops if `talk` returns false or throws; run() rethrows its exception.
     std::function<bool()> talk = {};
   };
 
@@ -40,18 +42,19 @@ class TaskLoop {
   TaskLoop(const TaskLoop&) = delete;
   TaskLoop& operator=(const TaskLoop&) = delete;
 
-  /// Calls body(k) for k = 0 … count − 1, and returns when all that began have ended. To be called
-  /// once. A task that throws stops the loop, and run() throws on what was thrown first.
+  /// Calls body(k) for k = 0 … count − 1 and returns when all tasks that began have ended. Call
+  /// run() once per object. A task that throws stops the loop, and run() rethrows the first
+  /// exception.
   void run(Index count, const std::function<void(Index)>& body);
 
-  /// Whether a task should go on. A task that takes long asks now and then.
+  /// Whether a task should go on. Long tasks should ask regularly.
   bool going_on();
-  /// No task begins any more, and those that run should not go on.
+  /// Begins no more tasks and asks running tasks to end.
   void stop() { stopped_ = true; }
   bool stopped() const { return stopped_; }
-  /// No task begins any more; those that run go on.
+  /// Begins no more tasks; running tasks go on.
   void close() { closed_ = true; }
-  /// How many tasks have ended, without those that threw.
+  /// Number of tasks that have ended without an exception.
   int finished() const { return finished_; }
 
  private:
@@ -68,11 +71,11 @@ class TaskLoop {
   std::atomic<int> finished_ = 0;
   const std::function<void(Index)>* body_ = nullptr;
   Index count_ = 0;
-  TaskLoop* around_ = nullptr;  // the loop in a task of which the calling thread began this one
+  TaskLoop* around_ = nullptr;  // the loop whose task began this loop
   std::chrono::steady_clock::time_point told_ = {};
 
-  // The pool's, under its lock.
-  int depth_ = 0;  // so many loops are around it
+  // The pool that runs the loop owns these members; its lock guards them.
+  int depth_ = 0;  // number of enclosing loops
   Index next_ = 0;
   int most_ = 1, running_ = 0;
 
@@ -80,8 +83,8 @@ class TaskLoop {
   std::exception_ptr failure_;
 };
 
-/// parallel::for_slabs() with the help of threads that have no task. False where the calling thread
-/// is in no pool, or no thread is free: nothing is done then.
+/// parallel::for_slabs() with the help of threads that have no task. Returns false and does nothing
+/// if the calling thread is in no pool or no thread is free.
 bool share_slabs(Index rows, Index slabs_per_thread, const std::function<void(Index, Index)>& body);
 
 }  // namespace salebra::detail

@@ -5,8 +5,8 @@
 
 namespace salebra {
 
-/// Thrown when an operation needs complete data, by Surface::require_complete(). A separate type,
-/// so that a program can say how it fills undefined points.
+/// Thrown by Surface::require_complete() if an operation needs complete data. It has its own type,
+/// which lets a program explain how to fill undefined points.
 class UndefinedPoints : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;

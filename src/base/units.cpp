@@ -20,24 +20,26 @@ struct Prefix {
   std::string_view symbol;
   int exponent;
 };
-// The micro sign and other letters are told in ASCII before.
+// The function plain() has replaced the micro sign and other letters by ASCII before a prefix is
+// looked up.
 constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9}, Prefix{"u", -6},
                               Prefix{"m", -3},  Prefix{"c", -2},  Prefix{"k", 3},  Prefix{"M", 6},
                               Prefix{"G", 9},   Prefix{"T", 12}};
 
-/// One way to write a unit: prefix + stem + tail, where the prefix counts `power` times.
+/// One spelling of a unit: head + prefix + stem + tail. The factor of the prefix is raised to
+/// `power`.
 struct Spelling {
   Dimension dimension;
   std::string_view head;
   std::string_view stem;
   std::string_view tail;
-  double factor = 1;  ///< SI value of the unit without a prefix
-  int power = 1;      ///< of the prefix; 0 where the unit takes none
+  double factor = 1;  ///< value in SI units without a prefix
+  int power = 1;      ///< power of the prefix; 0 if the unit takes none
 };
 
 constexpr double degree = std::numbers::pi / 180;
 using enum Dimension;
-/// As plain() has them: powers are digits.
+/// Units as plain() returns them, with digits for powers.
 constexpr std::array spellings{
     Spelling{dimensionless, "", "1", "", 1, 0},
     Spelling{dimensionless, "", "%", "", 0.01, 0},
@@ -105,13 +107,13 @@ constexpr std::array spellings{
     Spelling{Dimension::thermal_conductance, "", "W", "/(m2 K)"},
 };
 
-/// A unit by its name, in lower case.
+/// A full name of a unit, in lower case.
 struct Named {
   Dimension dimension;
   std::string_view name;
   double factor = 1;
   int exponent = 0;
-  bool takes_prefix = false;  ///< such as micro
+  bool takes_prefix = false;  ///< accepts a prefix such as "micro"
 };
 constexpr std::array names{
     Named{length, "meter", 1, 0, true},
@@ -148,8 +150,8 @@ constexpr std::array prefix_names{Prefix{"femto", -15}, Prefix{"pico", -12}, Pre
                                   Prefix{"zenti", -2},  Prefix{"kilo", 3},   Prefix{"mega", 6},
                                   Prefix{"giga", 9},    Prefix{"tera", 12}};
 
-/// Units in another case than theirs that can mean one thing only: MM is no mega-metre, while mpa
-/// may be a megapascal or a millipascal.
+/// Units written in wrong case that have only one meaning: MM means millimetre, because nobody
+/// measures in megametres, while mpa may be a megapascal or a millipascal and is not listed.
 struct OtherCase {
   Dimension dimension;
   std::string_view written;
@@ -189,7 +191,7 @@ struct About {
   Dimension dimension;
   std::string_view unit;
   std::string_view example;
-  bool takes_prefix;  ///< when printed
+  bool takes_prefix;  ///< whether printed numbers get a prefix
 };
 constexpr std::array abouts{
     About{dimensionless, "1", "0.1", false},
@@ -233,8 +235,8 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// factor · 10^exponent in SI units. The two are kept apart because 10 divided by 1e6 is exactly
-/// 1e-5, 10 times 1e-6 is not.
+/// Represents factor · 10^exponent in SI units. Factor and exponent are kept separate because 10
+/// divided by 1e6 is exactly 1e-5, but 10 times 1e-6 is not.
 struct Scale {
   double factor = 1;
   int exponent = 0;
@@ -260,10 +262,10 @@ std::optional<Scale> scale_of(std::string_view unit, const Spelling& spelling) {
   return {};
 }
 
-/// Who writes Mm means millimetres: nothing here is a megametre long.
+/// Mm is refused: no length here is in megametres, so the user means millimetres.
 bool has_prefix(Dimension dimension, int exponent) { return dimension != length || exponent <= 3; }
 
-/// A unit with powers as digits and letters in ASCII: several code points look like a mu, an
+/// Normalises a unit to ASCII with digits for powers: several code points look like a mu, an
 /// angstrom or an ohm.
 std::string plain(std::string_view unit) {
   using Sign = std::pair<std::string_view, std::string_view>;
@@ -291,7 +293,7 @@ std::string plain(std::string_view unit) {
   return text;
 }
 
-/// Finds the scale of a unit by its name in lower case, in singular or plural.
+/// Finds the scale of a unit from its name in lower case, singular or plural.
 std::optional<Scale> scale_of_name(std::string_view name, Dimension dimension) {
   for (const Named& unit : names) {
     if (unit.dimension != dimension) continue;
@@ -354,7 +356,7 @@ Scale unit_scale(std::string_view unit, Dimension dimension, std::string_view te
           "has a decimal comma; write a decimal point, as in 0.3");
   const auto scale = scale_of(unit, dimension);
   require(scale.has_value(), field, "'" + std::string(text) + "'",
-          fmt::format("has a unit that is not understood here, '{}'; write for example {}", unit,
+          fmt::format("has a unit that is not known here, '{}'; write for example {}", unit,
                       about(dimension).example));
   return *scale;
 }
@@ -376,11 +378,11 @@ std::vector<std::string_view> split_at(std::string_view text, char separator) {
   return parts;
 }
 
-/// Refuses "10,20,50MPa", which may be meant as 10, 20 and 50 MPa, and "1,5MPa", which on many
-/// keyboards is 1.5 MPa.
+/// Refuses "10,20,50MPa", which may mean 10, 20 and 50 MPa, and "1,5MPa", which many users type for
+/// 1.5 MPa.
 void require_units_at_all_or_none(std::string_view text, const std::vector<Written>& list,
                                   Dimension dimension, std::string_view field) {
-  // Zero counts as well, although it is the same in every unit: 0,5um may be half a micrometre.
+  // Zero needs a unit too, although it is the same in every unit: 0,5um may mean half a micrometre.
   const auto bare = [](const Written& written) { return written.unit.empty(); };
   const auto first = std::ranges::find_if_not(list, bare);
   if (first == list.end() || std::ranges::none_of(list, bare)) return;
@@ -394,7 +396,7 @@ void require_units_at_all_or_none(std::string_view text, const std::vector<Writt
   }
   const std::string_view si = si_unit(dimension);
   require(false, field, "'" + std::string(text) + "'",
-          fmt::format("has a unit at some of its numbers alone; write {} or, {}, {}", with_units,
+          fmt::format("has a unit on only some of its numbers; write {} or, {}, {}", with_units,
                       si == "1" ? "without a unit" : fmt::format("in {}", si), without) +
               (list.size() == 2 ? "; a decimal comma is written as a point" : ""));
 }
@@ -406,7 +408,7 @@ std::vector<double> geometric(std::string_view text, Dimension dimension, std::s
   const Written to_written = split(parts[1], dimension, field);
   Written from_written = split(parts[0], dimension, field);
   require(from_written.unit.empty() || !to_written.unit.empty(), field, quoted,
-          fmt::format("has a unit at its first number alone; write {}:{}{}:{}", trim(parts[0]),
+          fmt::format("has a unit only on its first number; write {}:{}{}:{}", trim(parts[0]),
                       trim(parts[1]), from_written.unit, trim(parts[2])));
   if (from_written.unit.empty()) from_written.unit = to_written.unit;
   const double from = value_of(from_written, dimension, text, field);
@@ -417,10 +419,9 @@ std::vector<double> geometric(std::string_view text, Dimension dimension, std::s
       std::from_chars(count_text.data(), count_text.data() + count_text.size(), count);
   require(status == std::errc{} && end == count_text.data() + count_text.size() && count >= 2 &&
               count <= 1'000'000,
-          field, quoted,
-          "needs a whole number from 2 to 1000000 as its count; write from:to:count");
+          field, quoted, "needs a count from 2 to 1000000; write from:to:count");
   require(from > 0 && to > 0 && from != to, field, quoted,
-          "must run between two different numbers > 0, for its steps are logarithmic; write a "
+          "must run between two different numbers > 0, because its steps are logarithmic; write a "
           "list a,b,c instead");
   std::vector<double> values;
   const double step = std::log(to / from) / (count - 1);
@@ -457,7 +458,7 @@ std::vector<double> parse_values(std::string_view text, Dimension dimension,
 
 std::string format_quantity(double value, Dimension dimension, int digits) {
   if (std::isnan(value)) return "n/a";
-  // The unit of this field, which has two prefixes.
+  // Stiffness per area has a unit of its own, with two prefixes.
   if (dimension == stiffness_per_area)
     return fmt::format("{:.{}g} GPa/\u00b5m", value / 1e15, digits);
   const std::string_view unit = si_unit(dimension);
@@ -468,8 +469,8 @@ std::string format_quantity(double value, Dimension dimension, int digits) {
   constexpr std::array engineering{
       Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9}, Prefix{"\u00b5", -6}, Prefix{"m", -3},
       Prefix{"", 0},    Prefix{"k", 3},   Prefix{"M", 6},  Prefix{"G", 9},       Prefix{"T", 12}};
-  // Rounding to the digits shown comes first, so that 999.96 nm reads 1 µm.
-  // std::stod would refuse numbers below the smallest normal one.
+  // Round to the shown digits first, so that 999.96 nm reads 1 µm. strtod is used because std::stod
+  // refuses subnormal numbers.
   const double rounded =
       std::strtod(fmt::format("{:.{}e}", std::abs(value), digits - 1).c_str(), nullptr);
   const int exponent = static_cast<int>(std::floor(std::log10(rounded) + 1e-12));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vector instruction set that passes use: the widest of this processor, or a narrower one that
-// the environment names.
+// Selects the vector instruction set of the vectorised passes: the widest of this processor, or a
+// narrower one named by the environment variable SALEBRA_VECTOR_WIDTH.
 #include "vector_width.hpp"
 
 #include <cstdlib>
@@ -12,7 +12,8 @@ namespace {
 
 VectorWidth widest() {
 #ifdef SALEBRA_X86_KERNELS
-  // What the passes are compiled for, by the names that every compiler knows.
+  // Checks one by one the processor features that the passes are compiled for, under names that
+  // every compiler knows.
   const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                         __builtin_cpu_supports("bmi2");
   const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
@@ -34,7 +35,7 @@ VectorWidth vector_width() {
     if (width <= most && std::string(wanted) == name_of(width)) return width;
   throw InvalidInput(
       "SALEBRA_VECTOR_WIDTH", wanted,
-      std::string("must be baseline, avx2 or avx512, and of this processor, which has ") +
+      std::string("must be baseline, avx2 or avx512 and supported by this processor, which has ") +
           name_of(most));
 }
 

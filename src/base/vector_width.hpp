@@ -5,16 +5,18 @@
 
 namespace salebra::detail {
 
-/// What passes are compiled for more than once, by -march: any machine, x86-64-v3, x86-64-v4.
+/// Instruction sets that the vectorised passes are compiled for: that of any machine, x86-64-v3 and
+/// x86-64-v4.
 enum class VectorWidth { baseline, avx2, avx512 };
 
-/// The widest that this machine runs, baseline on other processors than x86-64; or a narrower one
-/// by its name in the environment variable SALEBRA_VECTOR_WIDTH, which repeats on a newer processor
-/// what an older one computes. Throws InvalidInput for other names and for a wider one.
+/// The widest vector instruction set of this machine (baseline if it is not x86-64), or a narrower
+/// one named by the environment variable SALEBRA_VECTOR_WIDTH, which makes a newer processor
+/// reproduce the results of an older one. Throws InvalidInput if the variable holds an unknown name
+/// or a set that the machine does not have.
 VectorWidth vector_width();
 const char* name_of(VectorWidth width);
 
-/// The table of passes in one of the two precisions.
+/// Returns the table of passes for Real: single() if Real is float, dual() if it is double.
 template <class Real, class Single, class Dual>
 auto table_of(Single (*single)(), Dual (*dual)()) {
   if constexpr (std::is_same_v<Real, float>) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Version of the library, and what else the last digits of its results depend on.
+// Version of the library, and everything else that the last digits of its results depend on.
 #include <fftw3.h>
 #include <fmt/format.h>
 
@@ -18,8 +18,7 @@ std::string arithmetic() {
 #else
   const char* compiler = "GCC " __VERSION__;
 #endif
-  // FFTW takes the widest vectors of the processor that it was built for; Debian builds it for SSE2
-  // and AVX.
+  // FFTW uses the widest vectors that its build supports; Debian builds it for SSE2 and AVX.
 #if defined(__x86_64__)
   const char* transforms = __builtin_cpu_supports("avx") ? "avx" : "sse2";
 #else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Force curve of a surface: contacts at a list of pressures, several at a time, with stiffnesses.
+// Force curve of a surface: contacts at a list of pressures, several of them at a time, with
+// stiffnesses.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -20,7 +21,8 @@
 namespace salebra {
 namespace {
 
-// K_t is a maximum over the tractions: its error is about the square of this.
+// Tolerance of the tractions. K_t is a maximum over the tractions, so its error is about the square
+// of this tolerance.
 constexpr double stick_tolerance = 1e-3;
 
 }  // namespace
@@ -51,8 +53,8 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged();
     } else if (std::isfinite(material.tangential_modulus)) {
-      // Exact for one circular contact and for ν = 0; about 1 % off for rough ones at ν = 0.3
-      // (docs/theory.md, section 7).
+      // K_t = (G*/E*)K is exact for one circular contact and for ν = 0; about 1 % off for rough
+      // contacts at ν = 0.3 (docs/theory.md, section 7).
       sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
     }
   }
@@ -61,8 +63,9 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
 
 namespace {
 
-/// The loads of one group, from the highest, which takes longest, to the lowest: dealt to and fro,
-/// so that groups get alike times.
+/// The loads of one group of processes, from the highest, which takes longest, to the lowest. Loads
+/// are assigned to the groups in turn, forwards and then backwards, so that all groups take similar
+/// times.
 std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
   std::vector<std::size_t> mine;
   for (std::size_t back = 0; back < count; ++back) {
@@ -74,16 +77,16 @@ std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
 }
 
 void validate(const std::vector<double>& pressures) {
-  require_that(!pressures.empty(), "pressures", "none given; name at least one");
+  require_that(!pressures.empty(), "pressures", "not given; give at least one");
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     require_positive(pressures[k], "pressures");
     require(k == 0 || pressures[k] > pressures[k - 1], "pressures", pressures[k], "must increase");
   }
 }
 
-void require_memory_of_sweep(const Surface& surface, const SweepOptions& options, const Groups& groups,
-                  int concurrent) {
-  // A stick solve follows a contact whose fields are still there.
+void require_memory_of_sweep(const Surface& surface, const SweepOptions& options,
+                             const Groups& groups, int concurrent) {
+  // The fields of a contact still exist while its tangential stiffness is solved.
   const double each =
       detail::contact_memory(surface, options.contact) +
       (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0) *
@@ -97,7 +100,7 @@ void require_memory_of_sweep(const Surface& surface, const SweepOptions& options
 
 using Samples = std::vector<std::optional<ForceSample>>;
 
-/// The samples of all groups, in all processes.
+/// Gathers the samples of all groups of processes in every process.
 void gather(const Groups& groups, Samples& samples) {
   struct Found {
     std::size_t load;
@@ -131,8 +134,8 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
 
   const std::vector<std::size_t> mine = loads_of(groups, pressures.size());
   const int loads = static_cast<int>(mine.size());
-  // Two loads of a surface that is spread would send through each other; what a group takes must
-  // not depend on its size.
+  // If the surface is distributed over processes, messages of two concurrent loads would mix;
+  // otherwise the number of concurrent loads of a group must not depend on the size of the group.
   const int wanted = !groups.all().alone()          ? 1
                      : options.concurrent_loads > 0 ? options.concurrent_loads
                                                     : parallel::threads();
@@ -141,13 +144,13 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   Samples samples(pressures.size());
   SweepOptions inner = options;
   const Progress& on_progress = options.contact.on_progress;
-  std::atomic<double> residual = 0;  // of the contact that was heard of last
+  std::atomic<double> residual = 0;  // of the contact that reported last
   detail::TaskLoop loop({.at_once = concurrent, .communicator = surface.communicator, .talk = [&] {
                            const int done = loop.finished();
                            return !on_progress ||
                                   on_progress({"sweep", double(done) / loads, done, residual});
                          }});
-  // Processes that solve a contact together all ask, or none.
+  // Processes that solve a contact together must all call the progress function, or none of them.
   if (on_progress || surface.communicator.alone())
     inner.contact.on_progress = [&](const ProgressReport& report) {
       residual = report.residual;
@@ -159,7 +162,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
         press(surface, material.contact_modulus, at_pressure(pressures[k]), inner.contact);
     if (state.termination == Termination::interrupted) return loop.stop();
     const ForceSample sample = force_sample(state, surface, material, inner);
-    // A stiffness solve that was stopped half-way is not a load that failed.
+    // A sample whose stiffness solve was interrupted is dropped; it is not a failed load.
     if (!surface.communicator.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
     samples[k] = sample;
     if (options.on_state && state.converged()) options.on_state(k, state);

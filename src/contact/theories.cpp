@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bearing area, Bush-Gibson-Thomas, and Persson: contact area, mean gap and stiffness.
+// Bearing area, Bush-Gibson-Thomas and Persson theories: contact area, mean gap and stiffness.
 #include <gsl/gsl_integration.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/theories.hpp>
 
-#include "quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 
 namespace salebra {
 namespace {
@@ -18,8 +18,9 @@ using std::numbers::pi;
 
 const double root_pi = std::sqrt(pi);
 
-/// ∫_x^∞ erf²(t) exp(−t²) t^{−power} dt for power 1 and 2. The integrand is entire and falls within
-/// a few units, so that one Gauss–Legendre rule gives it to 1e-13.
+/// The integrals ∫_x^∞ erf²(t) exp(−t²) t^{−n} dt for n = 1 (power1) and n = 2 (power2). The
+/// integrand is smooth and vanishes after a few units of t, so one Gauss–Legendre rule gives the
+/// integrals to 1e-13.
 struct ErfSquareIntegrals {
   double power1, power2;
 };
@@ -43,8 +44,9 @@ ErfSquareIntegrals erf_square_integrals(double x) {
   return sum;
 }
 
-/// Antiderivatives over ρ = E*r/p from 0, with x = 1/ρ, of
-///     gap          ∫_x^∞ [γ + 3(1−γ)erf²] exp(−t²) dt/t
+/// Integrals from 0 to ρ, over ρ = E*r/p with the pressure p and 1/√2 times the rms slope, r, of the
+/// following functions of x = 1/ρ in Persson's theory with the energy factor γ:
+///     gap          ∫_x^∞ [γ + 3(1−γ)erf²(t)] exp(−t²) dt/t
 ///     compliance   [γ + 3(1−γ)erf²(x)] exp(−x²)
 struct Antiderivatives {
   double gap, compliance;
@@ -54,7 +56,7 @@ Antiderivatives antiderivatives(double rho, double energy_factor) {
   if (!(rho > 0)) return {0, 0};
   const double x = 1 / rho, correlated = 3 * (1 - energy_factor);
   const ErfSquareIntegrals erf_square = erf_square_integrals(x);
-  const double exponential_integral = -std::expint(-x * x);  // E1(x²)
+  const double exponential_integral = -std::expint(-x * x);  // exponential integral E1(x²)
   const double plain = rho * std::exp(-x * x) - root_pi * std::erfc(x);
   return {energy_factor * (rho * exponential_integral / 2 - plain) +
               correlated * (rho * erf_square.power1 - erf_square.power2),
@@ -115,7 +117,7 @@ PerssonTheory::PerssonTheory(std::vector<RoughnessShell> shells, double contact_
     rings_.push_back({shell.wavenumber, inner, std::sqrt(square_slope / 2)});
   }
   require(!rings_.empty(), "shells", shells.size(),
-          "shells have no power; a surface must be rough");
+          "shells have no power, but a surface must be rough");
   rms_height_ = std::sqrt(power);
   rms_slope_ = std::sqrt(square_slope);
 }
@@ -151,8 +153,8 @@ double PerssonTheory::contact_area_fraction(double pressure) const {
 double PerssonTheory::pressure(double target) const {
   require_positive(target, "mean_gap");
   const Asymptote limit = asymptote();
-  // ln p against ū is smooth, bends down from the asymptote, and ends at complete contact, where p
-  // is some times E*h'.
+  // ln p is smooth over the mean gap ū, bends down from its asymptote, and ends at complete
+  // contact, where p is a few times E*h' with the rms slope h'.
   const auto excess = [&](double log_ratio) {
     return mean_gap(contact_modulus_ * std::exp(log_ratio)) - target;
   };
@@ -164,8 +166,9 @@ double PerssonTheory::pressure(double target) const {
 }
 
 PerssonTheory::Asymptote PerssonTheory::asymptote() const {
-  // For small x, ∫_x^∞ exp(−t²)dt/t = −ln x − γ_E/2: what is left of the integral over r is ∫dr/q
-  // and ∫ln r dr/q.
+  // For small x, ∫_x^∞ exp(−t²)dt/t = −ln x − γ_E/2 with Euler's constant γ_E, so that the integral
+  // over r reduces to ∫dr/q and ∫ln r dr/q, where r is 1/√2 times the rms slope of the waves up to
+  // the wave number q.
   double length = 0, log_slope = 0;
   const auto antiderivative = [](double r) { return r > 0 ? r * std::log(r) - r : 0; };
   for (const Ring& ring : rings_) {
@@ -196,7 +199,7 @@ ForceCurve persson_curve(const PerssonTheory& theory, const Material& material, 
                              .pressure = pressure,
                              .contact_area_fraction = theory.contact_area_fraction(pressure),
                              .normal_stiffness = stiffness,
-                             // NaN where G* is.
+                             // NaN if G* is NaN.
                              .tangential_stiffness = material.tangential_modulus /
                                                      material.contact_modulus * stiffness});
   }

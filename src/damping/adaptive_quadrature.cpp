@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Level quadrature refined until the estimated error of the loss meets a tolerance.
+// Phase quadrature refined until the estimated error of the loss meets a tolerance.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +9,8 @@
 namespace salebra {
 namespace {
 
-// Fewer levels say nothing about their own scatter.
+// Number of intervals of the first trial if the user gives none. With fewer intervals the fits
+// cannot show the scatter of their own data.
 int first_intervals(const Oscillation& motion, const IntervalQuadratureOptions& options) {
   if (options.intervals > 0) return options.intervals;
   return std::holds_alternative<Drag>(motion) ? 16 : 8;
@@ -24,11 +25,11 @@ void validate(const AdaptiveQuadratureOptions& options) {
 
 }  // namespace
 
-AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets, const Grid2D& grid,
-                                                   const Material& material,
-                                                   const Oscillation& motion,
-                                                   double mean_indentation,
-                                                   const AdaptiveQuadratureOptions& options) {
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets,
+                                                      const Grid2D& grid, const Material& material,
+                                                      const Oscillation& motion,
+                                                      double mean_indentation,
+                                                      const AdaptiveQuadratureOptions& options) {
   validate(options);
   grid.validate();
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -38,8 +39,8 @@ AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& c
   const auto run = [&] {
     IntervalQuadratureOptions quadrature = options.quadrature;
     quadrature.intervals = result.intervals;
-    result.quadrature = interval_quadrature(intervals(result.grid), result.grid, material, motion,
-                                         mean_indentation, quadrature);
+    result.quadrature = interval_quadrature(contact_sets(result.grid), result.grid, material,
+                                            motion, mean_indentation, quadrature);
     result.trials.push_back({result.grid, result.intervals, result.quadrature.work_per_cycle,
                              result.quadrature.stiffness_ratio, result.quadrature.error_estimate});
     const std::size_t count = result.trials.size();
@@ -79,15 +80,15 @@ AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& c
   return result;
 }
 
-AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                                   const Material& material,
-                                                   const Oscillation& motion,
-                                                   double mean_indentation,
-                                                   const AdaptiveQuadratureOptions& options) {
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets,
+                                                      const Grid2D& grid, const Material& material,
+                                                      const Oscillation& motion,
+                                                      double mean_indentation,
+                                                      const AdaptiveQuadratureOptions& options) {
   AdaptiveQuadratureOptions fixed_grid = options;
   fixed_grid.max_points = 1;
-  return adaptive_interval_quadrature([&](const Grid2D&) { return intervals; }, grid, material, motion,
-                                   mean_indentation, fixed_grid);
+  return adaptive_interval_quadrature([&](const Grid2D&) { return contact_sets; }, grid, material,
+                                      motion, mean_indentation, fixed_grid);
 }
 
 }  // namespace salebra

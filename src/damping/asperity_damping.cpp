@@ -9,8 +9,8 @@
 #include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/closed_form.hpp>
 
+#include "base/numerics/quadrature.hpp"
 #include "contact/asperity/given_summits.hpp"
-#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {
@@ -35,8 +35,8 @@ void validate(const Oscillation& motion) {
   }
 }
 
-/// ∫ s² dx over the springs of a paraboloid with radius R at the mean indentation δ that open and
-/// close.
+/// ∫ s² dx over the springs that open and close, for a paraboloid with radius R at the mean
+/// indentation δ. s: stretch at which the spring at the distance x from the axis separates.
 double released_square(double radius, double indentation, const Oscillation& motion) {
   const double amplitude = normal_amplitude_of(motion);
   if (amplitude == 0 || indentation + amplitude <= 0) return 0;
@@ -48,7 +48,8 @@ double released_square(double radius, double indentation, const Oscillation& mot
   };
   detail::Integral integral;
   if (indentation > amplitude) {
-    // Over θ, where s is smooth at both ends: ζ = δ + u_z cosθ, dx = R dζ/2x.
+    // Integrates over the phase θ, because s is smooth at θ = 0 and π. The spring that
+    // touches at θ has the depth ζ = δ + u_z cosθ, and dx = R dζ/2x.
     integral = detail::integrate(
         [&](double angle) {
           const double spring_depth = amplitude * std::cos(angle);
@@ -57,7 +58,8 @@ double released_square(double radius, double indentation, const Oscillation& mot
         },
         std::array{0.0, std::numbers::pi}, 1e-12);
   } else {
-    // A summit that opens: over x, where its first touch at x = 0 is no singularity.
+    // A summit that opens in each cycle: integrates over x, because the integrand is smooth at x =
+    // 0, where the summit first touches.
     integral =
         detail::integrate([&](double x) { return square_at(x * x / radius - indentation); },
                           std::array{0.0, std::sqrt(radius * (indentation + amplitude))}, 1e-12);

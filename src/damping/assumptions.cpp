@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Assumptions of a damping constant without slip, and the loss with slip, from the springs of a
-// contact law.
+// Assumptions of a damping constant without slip, and the loss with slip, computed from the springs
+// of a contact law.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,8 +8,8 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
-#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <type_traits>
 
@@ -26,20 +26,23 @@ using detail::judge;
 using detail::unknown;
 using std::numbers::pi;
 
-// A loss below this part of ½K_t x² is what the solvers of a table left of a contact that loses
-// nothing.
+// Losses below this fraction of K_t x² (x: tangential displacement) count as 0: the tabulated
+// stiffness gives a loss of this size even to a contact that loses nothing.
 constexpr double no_loss = 1e-7;
-constexpr int steps = 360;  // the ratio of two losses on one path is then good to 1e-4
+// Samples per period: the ratio of two losses on one path is then accurate to 1e-4.
+constexpr int steps = 360;
 
-// A table continued beyond both ends, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws
-// as they are.
+// Continues a table below its lowest and above its highest indentation δ1 by F = F1 exp((δ − δ1)/l)
+// with l = F1/K1, where F1 and K1 are F and K at δ1. K_t grows by the same exponential. Laws that
+// are not tables stay as they are.
 class ContinuedLaw final : public ContactLaw {
  public:
   explicit ContinuedLaw(const ContactLaw& law)
       : ContactLaw(law.modulus_ratio()),
         law_(law),
         low_(law, law.lowest_indentation()),
-        // An indenter whose side is reached, or that is not known any further, is not continued.
+        // Above its highest indentation the law of an indenter is not continued: the contact may
+        // have reached the side of the indenter, or its shape is unknown there.
         high_(law, std::isfinite(low_.end) ? law.highest_indentation() : infinity) {}
   double force(double indentation) const override {
     const End* end = beyond(indentation);
@@ -91,7 +94,8 @@ class ContinuedLaw final : public ContactLaw {
   End low_, high_;
 };
 
-// The levels above `bottom` alone. Only K_t, F, their limit of slip and the ends are asked of it.
+// The contact law of only those springs of `law` that touch at an indentation above `bottom`, and
+// so open in each cycle. Only F, K_t, K_t/K and the range of indentations of this law are used.
 class OpeningLevels final : public ContactLaw {
  public:
   OpeningLevels(const ContactLaw& law, double bottom)
@@ -126,21 +130,23 @@ class OpeningLevels final : public ContactLaw {
   double bottom_, force_, stiffness_;
 };
 
-// A motion as the assumptions see it.
+// A motion with the numbers that the assumptions need.
 struct JudgedMotion {
-  double mean = 0, amplitude = 0;  // δ0, u_z
-  double displacement = 0;         // that M counts: u_x, or v/ω of a drag
+  double mean = 0, amplitude = 0;  // δ0 and u_z
+  // Tangential displacement in the Mindlin number M: u_x, or v/ω for a drag.
+  double displacement = 0;
   bool drag = false;
   double angular_frequency = 0;  // ω of the normal oscillation
-  double fastest = 0;            // of both
+  double fastest = 0;            // the higher of the normal and the tangential angular frequency
   std::optional<SampledMotion> path =
-      {};  // one period with the displacement 1, from the least indentation
-  std::function<double(double)> loss =
-      {};  // at a normal amplitude, displacement 1; none: no small-amplitude form
+      {};  // one period that begins at the minimum of δ, for a tangential displacement of 1 m
+  // Loss as a function of the normal amplitude, for a tangential displacement of 1 m; empty if the
+  // motion has no small-amplitude formula.
+  std::function<double(double)> loss = {};
 };
 
-// The loss of the same motion at another amplitude; frequencies without a common period have a
-// power alone.
+// Loss of the same motion as a function of its normal amplitude. A motion with two frequencies and
+// no common period has no loss per cycle; the function then returns the mean power.
 template <class Motion>
 std::function<double(double)> loss_at(const ContactLaw& law, double mean, Motion motion) {
   return [&law, mean, motion](double amplitude) mutable {
@@ -224,18 +230,20 @@ struct SpringLoss {
   double total = 0, permanent = 0;
 };
 
-// Springs under a path, in units of μ/g, g the law's K_t/K: a spring may be stretched by δ − ζ,
-// displacements count in (μ/g) m, losses in (μ/g)² J.
+// The springs of a contact law driven along a path. Lengths are in units of μ/g with g = K_t/K of
+// the law: a spring of depth ζ touches at the indentation ζ and may be stretched by δ − ζ,
+// displacements are in (μ/g) m and losses in (μ/g)² J.
 class Springs {
  public:
-  // furthest: largest displacement from the path's beginning.
+  // closed_levels: whether to include the springs that never open. furthest: largest displacement
+  // from the beginning of the path.
   Springs(const ContactLaw& law, SampledMotion path, bool closed_levels, double furthest)
       : path_(std::move(path)), closed_levels_(closed_levels) {
     const auto [low, high] = std::ranges::minmax(path_.indentation);
     const OpeningLevels opening(law, low);
     scale_ = law.tangential_stiffness(high);
     const double change = opening.tangential_stiffness(high);
-    // The coefficient with which a spring may be stretched by its depth.
+    // With this coefficient of friction the stretch limit of a spring is its depth δ − ζ.
     const double friction = law.stiffness_ratio(0.5 * (low + high));
     if (closed_levels) {
       contact_.emplace(law, low, high,
@@ -253,17 +261,17 @@ class Springs {
     stick_ = follow(stuck, 1, 1, 0).total;
   }
 
-  // SpringLoss without slip at the displacement 1.
+  // Loss without slip for a tangential displacement of 1.
   double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
-  // The loss of the steady state at a displacement. ahead: how far the contact is dragged at its
-  // least indentation before.
+  // Loss per period of the steady state for a tangential displacement. ahead: tangential distance
+  // by which the contact is dragged at the smallest indentation before the path begins.
   SpringLoss at(double displacement, double ahead = 0) {
     if (!contact_) return {};
-    // Opening levels have no history.
+    // Springs that open in each cycle forget the past, so one period is steady.
     const int periods = closed_levels_ && ahead == 0 ? 2 : 1;
     return follow(*contact_, displacement, periods, ahead);
   }
-  // |W/W(no slip) − 1|.
+  // |W/W0 − 1| with the loss W at this displacement and the loss W0 without slip.
   double change(double displacement) {
     const double loss = at(displacement).total, without = stick() * displacement * displacement;
     if (without > 0) return std::abs(loss / without - 1);
@@ -272,14 +280,14 @@ class Springs {
 
  private:
   static constexpr double tolerance = 1e-9;
-  // The levels' own stiffness is the difference of two that may be much larger: no table fits its
-  // last digits.
+  // Tolerance of the table for K_t of the springs that open. This K_t is the small difference of
+  // two stiffnesses, so its relative round-off error is large, and a table cannot be more accurate.
   double above_noise(double change) const {
     return std::clamp(1e-13 * scale_ / change, tolerance, 1e-3);
   }
   SpringLoss follow(TangentialContact& contact, double displacement, int periods,
                     double ahead) const {
-    // sample() begins at the least indentation.
+    // sample() begins at the smallest indentation.
     double x = displacement * path_.displacement.front();
     contact.start(path_.indentation.front(), x);
     const double before = x;
@@ -305,11 +313,11 @@ struct Limits {
   double five = unknown, twenty = unknown;
 };
 
-// Least arguments at which change() passes 5 and 20 %, looked for from `low`, where nothing changes
-// yet, to `high`.
+// Smallest arguments in [low, high] at which change() exceeds 5 % and 20 %. `low` must be so small
+// that change(low) is far below 5 %.
 Limits first_crossings(const std::function<double(double)>& change, double low, double high) {
   constexpr double step = 1.2;
-  constexpr int halvings = 18, max_steps = 400;  // 32 decades
+  constexpr int halvings = 18, max_steps = 400;  // 400 steps cover 32 decades
   Limits limits;
   double below = low;
   int taken = 0;
@@ -318,7 +326,7 @@ Limits first_crossings(const std::function<double(double)>& change, double low, 
     double above = below;
     while (change(above) <= percent) {
       below = above;
-      // None within the range, or within any that numbers can tell apart.
+      // There is no crossing in the range, or none that floating-point numbers can resolve.
       if (!(above < high) || ++taken > max_steps) return limits;
       above = std::min(above * step, high);
     }
@@ -331,7 +339,8 @@ Limits first_crossings(const std::function<double(double)>& change, double low, 
   return limits;
 }
 
-// How deep below `bottom` the force falls to a share of that there; NaN where nothing touches.
+// Distance below the indentation `bottom` at which the force has fallen to the fraction `share` of
+// the force at `bottom`; NaN if the contact is open at `bottom`.
 double depth_of_share(const ContactLaw& law, double bottom, double share) {
   const double least = share * law.force(bottom);
   if (!(least > 0)) return unknown;
@@ -347,7 +356,8 @@ double depth_of_share(const ContactLaw& law, double bottom, double share) {
   return beyond;
 }
 
-// Levels that stay closed on a slow way there and back, in units of μ/g. displacement: v/ω.
+// The springs that never open, under a slow drag forwards and backwards between turning points.
+// Lengths are in units of μ/g. displacement: v/ω.
 class ClosedLevels {
  public:
   ClosedLevels(const ContactLaw& law, double bottom, double amplitude, double displacement)
@@ -355,14 +365,16 @@ class ClosedLevels {
         bottom_(bottom),
         distance_per_cycle_(2 * pi * displacement),
         springs_(amplitude, displacement),
-        // A little beyond, for levels that all touch at once.
+        // The small margin includes springs that all touch at the same indentation.
         depth_(1.001 * depth_of_share(law, bottom, 1e-9)) {}
 
   double distance_per_cycle() const { return distance_per_cycle_; }
-  // The loss on a way, by the stretches δ_min − ζ of the levels.
+  // Loss while the body moves by the distance `excursion` between two turning points: the sum over
+  // the springs, each with the stretch limit δ_min − ζ at the smallest indentation.
   double loss(double excursion) const {
     constexpr int cells = 256;
-    // Cells of a longer way would be wider than the levels reach.
+    // Springs below depth_ carry no force and lose nothing. Without this bound a large distance
+    // would make the cells wider than the depth of all springs.
     const double depth = std::fmin(springs_.deepest(excursion), depth_);
     double sum = 0, above = law_.tangential_stiffness(bottom_);
     for (int i = 0; i < cells; ++i) {
@@ -374,19 +386,21 @@ class ClosedLevels {
     }
     return sum;
   }
-  // Mean over the normal cycles of the way.
+  // Loss per normal cycle, averaged over the distance `excursion` between two turning points.
   double loss_per_cycle(double excursion) const {
     return loss(excursion) * distance_per_cycle_ / excursion;
   }
 
-  // What the turning points leave of the loss of springs that open. cost: cost_of_turning(), two
-  // thirds of the mean θ/π of levels that touch from −θ to θ.
+  // Fraction of the loss of the opening springs that remains, since springs that are closed at a
+  // turning point lose less. cost: result of cost_of_turning(), which is two thirds of the mean of
+  // θ/π over the springs that touch from the phase −θ to θ.
   double kept(double cost, double excursion) const {
     return std::max(0.0, 1 - 1.5 * cost * springs_.turning_share(excursion));
   }
 
-  // Ways on which the loss is 5 and 20 % of `relaxation` per normal cycle; 0 where they were
-  // shorter than that of one cycle.
+  // Excursions at which the loss per normal cycle of the springs that never open is 5 % and 20 % of
+  // the loss `relaxation` of those that open. An excursion shorter than the distance per cycle is
+  // returned as 0.
   Limits limits(double relaxation, double longest) const {
     const double negligible = no_loss * law_.tangential_stiffness(bottom_);
     const auto change = [&](double excursion) {
@@ -407,16 +421,17 @@ class ClosedLevels {
   double depth_;
 };
 
-// Displacements, in units of μ/g, at which slip changes the loss, and the loss without slip at the
-// displacement 1.
+// stick: loss without slip for a tangential displacement of 1. displacements: tangential
+// displacements at which slip changes the loss by 5 % and 20 %. Lengths are in units of μ/g.
 struct SlipLimits {
   double stick = 0;
   Limits displacements = {};
 };
 
 SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double length) {
-  // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long
-  // changed any other loss.
+  // If the contact loses nothing without slip, slip begins at a displacement of about F/K. If it
+  // loses something, slip changes the loss by more than 20 % before the displacement is 10 u_z (M =
+  // 0.1).
   const double longest = std::max(10 * motion.amplitude, 2 * (length + motion.amplitude));
   const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
   Springs springs(law, *motion.path, !motion.drag, 2 * longest * (ahead - back));
@@ -426,24 +441,25 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
           first_crossings([&](double x) { return springs.change(x); }, shortest, longest)};
 }
 
-// Part of the least normal force that may stick in sliding.
+// In gross sliding, springs that still stick may carry this fraction of the minimum normal force.
 constexpr double stuck_share = 0.05;
 
-// Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of
-// μ/g; stick: the loss without slip at the displacement 1.
+// Returns whether (almost) all springs slip. Lengths are in units of μ/g. displacement: u_x under
+// oscillation at equal frequency, v/ω under a drag. excursion: distance between the turning points
+// of the drag. stick: loss without slip for a tangential displacement of 1.
 bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement,
             double excursion, double stick) {
   const double bottom = motion.mean - motion.amplitude, top = motion.mean + motion.amplitude;
   const double least = law.force(bottom);
-  // No level is closed at all times. In case (a) a level slips in each half of the cycle where the
-  // displacement is beyond its largest limit.
+  // All springs open in each cycle. In an oscillation a spring of depth ζ slips in both halves of
+  // the cycle if the displacement exceeds its largest stretch limit δ_max − ζ.
   if (!(least > 0))
     return motion.drag ? displacement >= motion.amplitude
                        : law.force(top - displacement) <= stuck_share * law.force(top);
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
-    // A level sticks where one anchor is within its limit δ − ζ of x at all times: 2ζ < min(x + δ)
-    // − max(x − δ).
+    // A spring of depth ζ sticks if one anchor stays within the stretch limit δ − ζ of x at all
+    // times: 2ζ < min(x + δ) − max(x − δ).
     double low = infinity, high = -infinity;
     for (std::size_t i = 0; i < motion.path->time.size(); ++i) {
       const double x = displacement * motion.path->displacement[i];
@@ -453,17 +469,18 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
     deepest = 0.5 * (low - high);
   }
   if (law.force(deepest) > stuck_share * least) return false;
-  // Below v_c springs that open stick while they are closed, and lose in proportion to v. What
-  // slides under a large oscillation may be a small part of the mean force.
+  // A drag slower than v_c: the springs that open stick while they are closed, and their loss grows
+  // with v. It is gross sliding only if the springs that never open lose more than these.
   return !motion.drag || displacement >= motion.amplitude ||
          ClosedLevels(law, bottom, motion.amplitude, displacement).loss_per_cycle(excursion) >=
              stick * displacement * displacement;
 }
 
-// What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A
-// level that touches from −θ to θ is let go with the stretch 2vθ/ω; with a turning point at τ
-// between it is 2vτ/ω, and the mean of θ² − τ² over all phases of the cycle is 2θ³/(3π). The sums
-// of θ³ and θ² over the levels are by parts those below.
+// Loss that one turning point at a random phase of a slow drag prevents, in units of the loss per
+// normal cycle. A spring that touches from the phase −θ to θ separates with the stretch 2vθ/ω; if
+// the drag turns at the phase τ in between, it separates with 2vτ/ω. θ² − τ² averages 2θ³/(3π) over
+// τ in the whole cycle. Integration by parts turns the sums of θ³ and θ² over the springs into
+// integrals of θ² and θ times K_t, which the loop computes.
 double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
   constexpr int cells = 360;
   const double closed = law.tangential_stiffness(mean - amplitude);
@@ -478,14 +495,14 @@ double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
 }
 
 Assumption slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
-                       const ContactParameters& parameters) {
+                          const ContactParameters& parameters) {
   Assumption assumption;
   if (!motion.drag) {
     assumption.verdict = Verdict::holds;
     return assumption;
   }
   const double cost = cost_of_turning(law, motion.mean, motion.amplitude);
-  // On less than the way of one cycle the motion is not slow, however short the contacts are.
+  // The path must be longer than the distance per normal cycle, however short the contacts last.
   assumption.limit_5_percent = std::max(1.0, cost / 0.05);
   assumption.limit_20_percent = std::max(1.0, cost / 0.2);
   assumption.value = parameters.excursion / (2 * pi * std::abs(motion.displacement));
@@ -507,18 +524,19 @@ void check(const NormalOscillation& normal, const std::vector<double>& velocitie
 }
 
 void check(const ContactParameters& parameters) {
-  for (const auto& [value, field] : {std::pair{parameters.friction_coefficient, "friction_coefficient"},
-                                     {parameters.hardness, "hardness"},
-                                     {parameters.density, "density"},
-                                     {parameters.excursion, "excursion"},
-                                     {parameters.contact_modulus, "contact_modulus"},
-                                     {parameters.loaded_size, "loaded_size"},
-                                     {parameters.first_load, "first_load"}})
+  for (const auto& [value, field] :
+       {std::pair{parameters.friction_coefficient, "friction_coefficient"},
+        {parameters.hardness, "hardness"},
+        {parameters.density, "density"},
+        {parameters.excursion, "excursion"},
+        {parameters.contact_modulus, "contact_modulus"},
+        {parameters.loaded_size, "loaded_size"},
+        {parameters.first_load, "first_load"}})
     if (!std::isnan(value)) require_positive(value, field);
   if (parameters.nominal_pressure > parameters.hardness && std::isnan(parameters.first_load))
     require(false, "hardness", parameters.hardness,
-            "Pa is below the mean pressure of the contact, where all of it would flow; reduce the "
-            "load or give the hardness in Pa");
+            "Pa is below the mean pressure of the contact, so that all of it would yield; reduce "
+            "the load or give the hardness in Pa");
 }
 
 // Poisson's ratio of one elastic body with this G*/E* = 2(1 − ν)/(2 − ν).
@@ -526,29 +544,31 @@ double poisson_of(double modulus_ratio) { return (2 - 2 * modulus_ratio) / (2 - 
 
 void judge_flow(Assumption& assumption) {
   if (std::isnan(assumption.value)) return;
-  assumption.verdict = assumption.value > 1               ? Verdict::broken
-                    : assumption.value > assumption.onset ? Verdict::doubtful
-                                                    : Verdict::holds;
+  assumption.verdict = assumption.value > 1                  ? Verdict::broken
+                       : assumption.value > assumption.onset ? Verdict::doubtful
+                                                             : Verdict::holds;
 }
 
-// peak_force: at the deepest indentation.
+// peak_force: normal force at the largest indentation of the motion.
 Assumption plasticity_of(const ContactParameters& parameters, double peak_force) {
   if (!std::isnan(parameters.first_load)) {
-    // A first loading ends at the peak of the oscillation, whose force a law through some loads
-    // has to this accuracy.
+    // A first loading ends at the peak force of the oscillation. The law interpolates between loads
+    // and gives this force with a relative accuracy of 0.02.
     constexpr double accuracy = 0.02;
     const double share = peak_force / parameters.first_load;
     Assumption assumption{.value = std::abs(share - 1) < accuracy ? 1 : share, .onset = 1};
     judge_flow(assumption);
     return assumption;
   }
-  // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
+  // The pressures are compared with the hardness H = 2.8 Y of a material with the yield stress Y. A
+  // paraboloid begins to yield below its centre at a maximum pressure of 1.6 Y, about 0.6 H.
   Assumption assumption{.onset = 0.6};
-  // A paraboloid has this ratio.
+  // Ratio of maximum to mean pressure under a paraboloid.
   constexpr double max_over_mean = 1.5;
   double stress = unknown;
-  for (const double one : {parameters.max_pressure, max_over_mean * parameters.mean_contact_pressure,
-                           parameters.contact_modulus * parameters.rms_slope})
+  for (const double one :
+       {parameters.max_pressure, max_over_mean * parameters.mean_contact_pressure,
+        parameters.contact_modulus * parameters.rms_slope})
     stress = std::fmax(stress, one);
   assumption.value = stress / parameters.hardness;
   if (std::isnan(parameters.hardness))
@@ -559,31 +579,35 @@ Assumption plasticity_of(const ContactParameters& parameters, double peak_force)
   return assumption;
 }
 
-// drag: what the coupling changes of a slow motion was never computed.
-Assumption coupling_of(const ContactLaw& law, bool indenter, bool drag, const ContactParameters& parameters) {
+// drag: true leaves the verdict unknown, because the effect of coupling on a slow drag was never
+// computed.
+Assumption coupling_of(const ContactLaw& law, bool indenter, bool drag,
+                       const ContactParameters& parameters) {
   Assumption assumption{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
   if (drag) return assumption;
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
       std::isnan(parameters.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : parameters.dundurs;
-  // The largest of direct simulations at ν = 0.3 (β = 0.286) and 0 (β = 0.5): 12 and 52 % of a
-  // paraboloid at 45°, 4 and 18 % of rough surfaces (docs/direct_simulation.md).
+  // Fits to the largest changes of the loss in direct simulations, with Dundurs' constant β. For β
+  // = 0.286 (ν = 0.3) and β = 0.5 (ν = 0) they were 12 and 52 % for a paraboloid at a phase of 45°,
+  // and 4 and 18 % for rough surfaces (docs/direct_simulation.md).
   assumption.value =
       indenter ? 3.2 * std::pow(std::abs(dundurs), 2.62) : 1.16 * std::pow(std::abs(dundurs), 2.69);
   judge(assumption);
   return assumption;
 }
 
-// stick: loss for u_x = 1 m.
+// stick: loss without slip for u_x = 1 m.
 Assumption inertia_of(const ContactLaw& law, const JudgedMotion& motion, double stick,
-                   const ContactParameters& parameters) {
-  // A stuck circle on a half-space: K(1 + 0.58i a0) for small a0 = ωa/c_s.
+                      const ContactParameters& parameters) {
+  // Impedance of a stuck circle with radius a on a half-space with the shear wave speed c_s: K(1 +
+  // 0.58i a0) for small a0 = ωa/c_s.
   constexpr double radiation = 0.58;
   const auto change_of_modulus = [](double change) {
     return std::sqrt((1 + change) * (1 + change) - 1) / radiation;
   };
   Assumption assumption{.limit_5_percent = change_of_modulus(0.05),
-                  .limit_20_percent = change_of_modulus(0.2)};
+                        .limit_20_percent = change_of_modulus(0.2)};
   if (!(motion.fastest > 0)) {
     assumption.needs = "angular_frequency";
     return assumption;
@@ -595,7 +619,8 @@ Assumption inertia_of(const ContactLaw& law, const JudgedMotion& motion, double 
   if (!assumption.needs.empty()) return assumption;
   const double ratio = law.modulus_ratio(), poisson = poisson_of(ratio);
   const double shear = ratio * parameters.contact_modulus * (2 - poisson) / 4;
-  assumption.value = motion.fastest * parameters.loaded_size / std::sqrt(shear / parameters.density);
+  assumption.value =
+      motion.fastest * parameters.loaded_size / std::sqrt(shear / parameters.density);
   if (!motion.drag && stick > 0) {
     const double stiffness = law.tangential_stiffness(motion.mean + motion.amplitude);
     const double whole = 2 * ratio * parameters.contact_modulus * parameters.loaded_size;
@@ -608,13 +633,14 @@ Assumption inertia_of(const ContactLaw& law, const JudgedMotion& motion, double 
 }
 
 Assumption amplitude_of(const ContactLaw& law, const JudgedMotion& motion, double length,
-                     double stick) {
+                        double stick) {
   Assumption assumption{.value = motion.amplitude};
-  // The limit of W/u_z for small u_z, not F'' itself: that of a table jumps at its samples.
+  // The loss is compared with a line in u_z. Its slope is W/u_z at a small u_z; the formula with
+  // F'' would not do, since F'' of a table jumps at its samples.
   const double least = 1e-4 * length;
   const double range =
       std::min(motion.mean - law.lowest_indentation(), law.highest_indentation() - motion.mean);
-  // Thirty l above its middle an exponential contact has long left every small-amplitude form.
+  // At 30 times the length F/K every small-amplitude formula has failed for an exponential contact.
   const double most = std::min(30 * length, range);
   const double slope = motion.loss && stick > 0 && most > least ? motion.loss(least) / least : 0;
   if (slope > 0) {
@@ -625,13 +651,13 @@ Assumption amplitude_of(const ContactLaw& law, const JudgedMotion& motion, doubl
     assumption.limit_20_percent = limits.twenty;
   }
   judge(assumption);
-  // No limit within the law's range, and a motion that leaves it.
+  // The loss reaches neither limit in the range of the law, but the motion leaves this range.
   if (slope > 0 && std::isnan(assumption.limit_5_percent) && motion.amplitude > 1.001 * most)
     assumption.verdict = Verdict::unknown;
   return assumption;
 }
 
-// A length of the law's own where it stands: F/K, or u_z where there is no contact in the mean.
+// Length over which the force changes at the mean indentation: F/K, or u_z if there is no contact.
 double length_of(const ContactLaw& law, double mean, double amplitude) {
   const double force = law.force(mean), stiffness = law.normal_stiffness(mean);
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
@@ -642,19 +668,20 @@ void set_limits(Assumption& assumption, const Limits& limits, double unit) {
   assumption.limit_20_percent = unit * limits.twenty;
 }
 
-// The largest motions without slip, for μ or, where it is not known, for three of them.
-// displacement: that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a
-// μ/g.
+// Largest motions without slip for the given μ or, if μ is unknown, for three values of μ.
+// displacement: tangential displacement, in units of μ/g, at which slip changes the loss by 5 %.
+// closed_limits: function that returns, for a given μ/g, the excursions at which the springs that
+// never open lose 5 % and 20 % of the relaxation loss.
 template <class ClosedLimits>
-std::vector<LargestMotion> max_motions(const JudgedMotion& motion, const ContactParameters& parameters,
-                                           double stiffness_ratio, double displacement,
-                                           const ClosedLimits& closed_limits) {
+std::vector<MaxMotion> max_motions(const JudgedMotion& motion, const ContactParameters& parameters,
+                                   double stiffness_ratio, double displacement,
+                                   const ClosedLimits& closed_limits) {
   std::vector<double> coefficients{parameters.friction_coefficient};
   if (std::isnan(parameters.friction_coefficient)) coefficients = {0.1, 0.3, 1};
-  std::vector<LargestMotion> motions;
+  std::vector<MaxMotion> motions;
   for (const double coefficient : coefficients) {
     const double limit = coefficient / stiffness_ratio;
-    LargestMotion largest{.friction_coefficient = coefficient};
+    MaxMotion largest{.friction_coefficient = coefficient};
     if (motion.drag) {
       largest.drag_velocity = limit * displacement * motion.angular_frequency;
       if (!std::isnan(motion.displacement)) largest.excursion = limit * closed_limits(limit).five;
@@ -666,7 +693,9 @@ std::vector<LargestMotion> max_motions(const JudgedMotion& motion, const Contact
   return motions;
 }
 
-// By the verdicts on the slip of both kinds of levels. stretch: μ/g.
+// Decides between no slip, partial slip and sliding: first by the verdicts on slip of the springs
+// that open and of those that never open, then by slides(). stretch: μ/g. stick: loss without slip
+// for a tangential displacement of 1.
 Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assumptions& assumptions,
                  double stretch, double stick) {
   const Assumption& opening = assumptions.slip_of_opening_springs;
@@ -680,7 +709,7 @@ Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assump
 }
 
 Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
-                      const ContactParameters& parameters) {
+                            const ContactParameters& parameters) {
   check(parameters);
   const ContinuedLaw law(given);
   const double amplitude = motion.amplitude;
@@ -690,8 +719,8 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
   Assumptions assumptions;
   assumptions.plasticity = plasticity_of(
       parameters, law.force(std::min(motion.mean + amplitude, given.highest_indentation())));
-  assumptions.coupling =
-      coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, parameters);
+  assumptions.coupling = coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr,
+                                     motion.drag, parameters);
   assumptions.slow_motion = slow_motion_of(law, motion, parameters);
   Assumption& opening = assumptions.slip_of_opening_springs;
   Assumption& closed = assumptions.slip_of_closed_springs;
@@ -699,13 +728,14 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
   const double stretch = parameters.friction_coefficient / ratio;
   const double displacement = std::abs(motion.displacement);
   opening.value = stretch * amplitude / displacement;
-  closed.value = std::isnan(parameters.excursion) && !motion.drag ? displacement : parameters.excursion;
+  closed.value =
+      std::isnan(parameters.excursion) && !motion.drag ? displacement : parameters.excursion;
   if (std::isnan(displacement)) opening.needs = "drag_velocity";
   if (std::isnan(parameters.friction_coefficient)) opening.needs = "friction_coefficient";
   closed.needs = opening.needs;
 
   double stick = 0;
-  Limits displacements;  // in units of μ/g
+  Limits displacements;  // tangential displacements in units of μ/g
   if (motion.path) {
     const SlipLimits slip = slip_limits(law, motion, length);
     stick = slip.stick;
@@ -713,11 +743,11 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
     opening.limit_5_percent = amplitude / displacements.five;
     opening.limit_20_percent = amplitude / displacements.twenty;
   } else {
-    // Frequencies without a common period: no path to follow.
+    // A motion with two frequencies and no common period has no path, so its slip is unknown.
     opening.value = closed.value = unknown;
   }
   if (opening.needs.empty()) judge(opening, true);
-  // Without a path the loss is not known here, but there is one.
+  // Without a path the loss without slip is unknown, but it is not 0; any positive number will do.
   assumptions.amplitude = amplitude_of(given, motion, length, motion.path ? stick : 1);
   assumptions.inertia = inertia_of(law, motion, stick, parameters);
 
@@ -733,7 +763,7 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
     const Limits limits = closed_limits(stretch);
     set_limits(closed, limits, stretch);
     if (std::isnan(closed.value)) closed.needs = "excursion";
-    // No excursion is short enough.
+    // Even an excursion of one distance per normal cycle gives too much slip of closed springs.
     if (limits.twenty == 0) closed.verdict = Verdict::broken, closed.needs.clear();
   }
   if (closed.needs.empty()) judge(closed);
@@ -750,10 +780,10 @@ const ForceSample& nearest_load(const ForceCurve& curve, double force) {
 
 }  // namespace
 
-ContactParameters at_state(ContactParameters parameters, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation, double deepest) {
+ContactParameters at_state(ContactParameters parameters, const ContactLaw& law,
+                           const ForceCurve* curve, double indentation, double deepest) {
   check(parameters);
-  // A motion may leave a table, which says nothing beyond its last load.
+  // The motion may exceed the highest indentation of a table; nothing is known there.
   deepest = std::min(deepest, law.highest_indentation());
   const double force = law.force(indentation), peak = law.force(deepest);
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && peak > 0) {
@@ -762,20 +792,22 @@ ContactParameters at_state(ContactParameters parameters, const ContactLaw& law, 
     parameters.contact_modulus = indenter->contact_modulus();
     parameters.loaded_size = radius;
     parameters.mean_contact_pressure = pressure(peak, radius);
-    if (force > 0) parameters.nominal_pressure = pressure(force, indenter->contact_radius(indentation));
+    if (force > 0)
+      parameters.nominal_pressure = pressure(force, indenter->contact_radius(indentation));
   }
   if (curve == nullptr || !(curve->nominal_area > 0)) return parameters;
   parameters.loaded_size = std::sqrt(curve->nominal_area);
   parameters.nominal_pressure = force / curve->nominal_area;
-  // Area and force grow almost in proportion: that of the nearest load will do.
+  // Contact area and force are almost proportional, so the mean pressure at the nearest load of the
+  // curve is that at the peak force.
   const ForceSample& nearest = nearest_load(*curve, peak);
   parameters.mean_contact_pressure =
       nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
   return parameters;
 }
 
-double spot_radius(const ContactParameters& parameters, const ContactLaw& law, const ForceCurve* curve,
-                   double indentation) {
+double spot_radius(const ContactParameters& parameters, const ContactLaw& law,
+                   const ForceCurve* curve, double indentation) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
     return indenter->contact_radius(indentation);
   if (curve == nullptr) return ContactParameters::unknown;
@@ -784,17 +816,18 @@ double spot_radius(const ContactParameters& parameters, const ContactLaw& law, c
          (std::numbers::pi * nearest.normal_stiffness);
 }
 
-Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
-                     const ContactParameters& parameters) {
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation,
+                           const Oscillation& motion, const ContactParameters& parameters) {
   return all_assumptions(law, case_of(law, mean_indentation, motion), parameters);
 }
 
-Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
-                     const ContactParameters& parameters) {
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation,
+                           const TwoFrequencies& motion, const ContactParameters& parameters) {
   return all_assumptions(law, case_of(law, mean_indentation, motion), parameters);
 }
 
-Assumptions assumptions_of(const ContactLaw& law, const SampledMotion& path, const ContactParameters& parameters) {
+Assumptions assumptions_of(const ContactLaw& law, const SampledMotion& path,
+                           const ContactParameters& parameters) {
   return all_assumptions(law, case_of(path), parameters);
 }
 
@@ -829,7 +862,9 @@ Loss loss_with_slip(const ContactLaw& given, double mean_indentation, const Osci
     relaxation *= closed.kept(cost_of_turning(law, one.mean, one.amplitude), excursion / limit);
     slip = closed.loss_per_cycle(excursion / limit);
   } else if (law.tangential_stiffness(bottom) > 0) {
-    // Forty F/K below its edge an exponential contact has nothing left.
+    // The springs that never open first slide at the smallest indentation. An exponential contact
+    // carries nothing at 40 F/K below the smallest indentation, so all springs slide after this
+    // distance.
     const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + distance;
     slip = Springs(law, *one.path, true, ahead + distance).at(displacement, ahead).permanent;
   }
@@ -843,7 +878,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
   detail::require_possible(given, mean_indentation, amplitude);
   const ContinuedLaw law(given);
-  // Displacements below stand for the velocity.
+  // `velocities` sets the velocity of each case. Here the drag velocity is only a unit.
   const Drag drag{amplitude, amplitude * omega, omega};
   const JudgedMotion motion = case_of(law, mean_indentation, drag);
   const double limit = friction_coefficient / law.stiffness_ratio(mean_indentation);

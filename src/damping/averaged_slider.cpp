@@ -9,7 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "max_motion.hpp"
 
 namespace salebra::detail {
@@ -59,7 +59,8 @@ AveragedSlider::AveragedSlider(const SliderContact& contact, const SteadySliding
       control_(gsl_odeiv2_control_y_new(1e-10, 1e-10), &gsl_odeiv2_control_free),
       evolve_(gsl_odeiv2_evolve_alloc(size), &gsl_odeiv2_evolve_free) {}
 
-// Time in 1/natural_, forces in force_.
+// Right-hand side of the averaged equation. Time is in units of 1/natural_, force in units of
+// force_.
 int AveragedSlider::derivatives(double, const double* state, double* rates, void* self) {
   const auto& it = *static_cast<const AveragedSlider*>(self);
   const Slider& slider = it.slider_;
@@ -104,7 +105,8 @@ void AveragedSlider::begin(double offset, double relative_velocity) {
 }
 
 double AveragedSlider::stick(double time) {
-  const double rate = slider_.spring_stiffness * length_;  // of the load, by scaled time
+  // Increase of the spring load in a unit of scaled time.
+  const double rate = slider_.spring_stiffness * length_;
   const double left = std::max(friction_.at_rest() - load(), 0.0) / rate;
   const double taken = std::min(left, time), mean = load() + 0.5 * rate * taken;
   state_[0] -= taken;
@@ -124,7 +126,7 @@ double AveragedSlider::slip(double time) {
                               &next_step_, state_) != GSL_SUCCESS)
     throw NotConverged("slider: a step of the averaged equation failed");
   if (direction_ * (state_[1] + 1) > -1e-9) return taken;
-  // It stops within the step.
+  // The velocity changes sign, so the slider stops within this step.
   double errors[size];
   const auto velocity_after = [&](double part) {
     std::ranges::copy(before, state_);
@@ -150,7 +152,8 @@ double AveragedSlider::slip(double time) {
 
 void AveragedSlider::advance() {
   constexpr double part = 2 * std::numbers::pi / 256;
-  // An equation that is stiff, as by a dashpot of many times √(km), would take steps without end.
+  // A stiff equation, for example one with a dashpot of many times √(km) (spring stiffness k, mass
+  // m), would take endless steps.
   constexpr int max_steps = 100'000;
   double left = part;
   int taken = 0;
@@ -158,8 +161,8 @@ void AveragedSlider::advance() {
     left -= direction_ == 0 ? stick(left) : slip(left);
     if (++taken > max_steps)
       throw NotConverged(
-          "slider: the averaged equation is too stiff: a 256th of a slow period takes more than "
-          "100000 steps; use less damping, or a contact that is less stiff");
+          "slider: the averaged equation is too stiff, because 1/256 of a slow period takes more "
+          "than 100000 steps; use less damping or a less stiff contact");
   }
   const double energy = force_ * length_;
   totals_.time += part / natural_;

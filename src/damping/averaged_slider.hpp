@@ -11,8 +11,9 @@
 
 namespace salebra::detail {
 
-/// T̄(v) of steady sliding for v >= 0: cubics in √(v/v_c), in which it is smooth also where it
-/// begins as v^{3/2}, through values and slopes.
+/// Mean friction force T̄(v) of steady sliding at the velocity v >= 0, as piecewise cubics in
+/// √(v/v_c) with known values and slopes. In this variable T̄ is smooth, also at v = 0, where it
+/// grows as v^{3/2}.
 class MeanFriction {
  public:
   MeanFriction(const SliderContact& contact, double friction_coefficient);
@@ -21,12 +22,12 @@ class MeanFriction {
 
  private:
   double critical_velocity_ = 0;
-  std::vector<double> values_, slopes_;  // slopes by √(v/v_c)
+  std::vector<double> values_, slopes_;  // slopes_: derivatives by √(v/v_c)
 };
 
-/// The averaged equation of motion of a slider. While it slips one way, the equation is smooth and
-/// is left to GSL; where it stops is located on the step that passes it, and how long it sticks is
-/// known.
+/// The averaged equation of motion of a slider. While the slider slips in one direction the
+/// equation is smooth, and an adaptive Runge–Kutta method integrates it. The time at which the
+/// slider stops is located within a step, and the duration of stick has a closed form.
 class AveragedSlider {
  public:
   AveragedSlider(const SliderContact& contact, const SteadySliding& sliding,
@@ -35,9 +36,11 @@ class AveragedSlider {
   AveragedSlider& operator=(const AveragedSlider&) = delete;
 
   void begin(double offset, double relative_velocity);
-  void advance();  ///< by a part of 2π√(m/k)
+  /// Advances by 1/256 of 2π√(m/k), with the mass m of the slider and the stiffness k of its
+  /// spring.
+  void advance();
 
-  /// As many steps of the full equation as take the time of one advance().
+  /// Computing time of one advance(), in steps of the full equation of motion.
   long steps() const { return 16; }
   double time() const { return totals_.time; }
   double offset() const { return state_[0] * length_; }
@@ -56,9 +59,10 @@ class AveragedSlider {
 
   const Slider slider_;
   MeanFriction friction_;
-  double natural_, length_, force_;  // scales: 1/s, m, N
-  int direction_ = 0;                // of slip; 0: it sticks
-  double state_[size]{};             // y/length, w/V, and the totals in these units
+  double natural_, length_, force_;  // units of frequency, length and force: 1/s, m, N
+  int direction_ = 0;                // direction of slip; 0: the slider sticks
+  // Displacement/length_, relative velocity/drive velocity, and the totals in these units.
+  double state_[size]{};
   SliderTotals totals_;
   gsl_odeiv2_system system_;
   std::unique_ptr<gsl_odeiv2_step, decltype(&gsl_odeiv2_step_free)> step_;

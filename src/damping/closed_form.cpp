@@ -11,8 +11,8 @@
 #include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
 
+#include "base/numerics/quadrature.hpp"
 #include "base/quiet_gsl.hpp"
-#include "contact/quadrature.hpp"
 #include "max_motion.hpp"
 #include "phase_quadrature.hpp"
 
@@ -23,8 +23,9 @@ using std::numbers::pi;
 
 double square(double value) { return value * value; }
 
-// J(k) = Σ c_m k^m/m!, c_m = ∫θ² sinθ cos^mθ dθ = ((−1)^m π² + 2T_{m+1})/(m+1), T_n = ∫_0^π θ cosⁿθ
-// dθ.
+// Power series of the integral J(k) in the loss of an exponential contact under a slow drag, with k
+// = u_z/l and the decay length l: J(k) = Σ c_m k^m/m!, c_m = ∫_0^π θ² sinθ cos^mθ dθ = ((−1)^m π² +
+// 2T_{m+1})/(m+1), T_n = ∫_0^π θ cosⁿθ dθ.
 double drag_integral_series(double k) {
   double even = pi * pi / 2, odd = -2;  // T_0, T_1
   double sum = 0, power = 1;
@@ -44,20 +45,23 @@ double drag_integral_series(double k) {
 double drag_integral_bessel_scaled(double k) {
   constexpr int highest_order = 61;  // I_61(20)/I_0(20) < 1e-17
   std::array<double, highest_order + 1> bessel{};
-  detail::quiet_gsl();  // underflow of the high orders
+  // Turns off GSL's error handler, because Bessel functions of high order underflow.
+  detail::quiet_gsl();
   gsl_sf_bessel_In_scaled_array(0, highest_order, k, bessel.data());
   double sum = 0;
   for (int n = highest_order; n > 0; n -= 2) sum += bessel[static_cast<std::size_t>(n)] / square(n);
   return pi * pi / k * (bessel[0] - std::exp(-2 * k)) - 8 / k * sum;
 }
 
-// With t = 1 − cosθ, θ² = 2 Σ (2t)ⁿ/(n² C(2n, n)), integrated against e^{−kt} over t > 0. The terms
-// shrink until n ≈ 2k, so what is left out is of order e^{−2k}, as is the cut at t = 2.
+// Asymptotic series of the same integral J(k) for large k. With t = 1 − cosθ, θ² = 2 Σ (2t)ⁿ/(n²
+// C(2n, n)) (binomial coefficient C) is integrated against e^{−kt} over all t > 0. The terms shrink
+// until n ≈ 2k, so the truncation error is of order e^{−2k}. The error of integrating beyond t = 2
+// (θ = π) is of the same order.
 double drag_integral_asymptotic_scaled(double k) {
   double term = 2 / square(k), sum = 0;
   for (int n = 1; n < 40; ++n) {
     sum += term;
-    // 2ⁿ⁺¹ n!/(n² C(2n, n) kⁿ⁺¹): the factor from n to n + 1.
+    // The term is 2ⁿ⁺¹ n!/(n² C(2n, n) kⁿ⁺¹); this is the factor from n to n + 1.
     term *= square(n) / ((2 * n + 1.0) * k);
     if (term < 1e-17 * sum) break;
   }
@@ -86,8 +90,8 @@ bool intermittent_contact(double spring_depth, double amplitude) {
 
 double released_distance(double spring_depth, const EqualFrequency& motion) {
   if (!intermittent_contact(spring_depth, motion.normal_amplitude)) return 0;
-  return 2 * motion.tangential_amplitude * std::sqrt(1 - square(spring_depth / motion.normal_amplitude)) *
-         std::sin(motion.phase);
+  return 2 * motion.tangential_amplitude *
+         std::sqrt(1 - square(spring_depth / motion.normal_amplitude)) * std::sin(motion.phase);
 }
 
 double released_distance(double spring_depth, const Drag& motion) {
@@ -105,7 +109,8 @@ double work_per_cycle(double tangential_modulus, double slope, double amplitude,
   const double half_width = std::abs(amplitude);
   const std::array<double, 2> interval{-half_width, half_width};
   return tangential_modulus / slope *
-         detail::integrate([&](double spring_depth) { return square(distance(spring_depth)); }, interval, 1e-13)
+         detail::integrate([&](double spring_depth) { return square(distance(spring_depth)); },
+                           interval, 1e-13)
              .value;
 }
 
@@ -157,8 +162,8 @@ double work_per_cycle_exponential(double modulus_ratio, double reference_force, 
   const double amplitude = std::abs(detail::normal_amplitude(motion)), k = amplitude / decay_length;
   require(
       !(amplitude > detail::possible_amplitude(decay_length)), "normal_amplitude", amplitude,
-      fmt::format("m takes the force beyond {:g} times that at rest, up to which an exponential "
-                  "law holds; at most {}, or hold the mean force",
+      fmt::format("m raises the force above {:g} times the force at rest; an exponential law "
+                  "allows at most {}; reduce the amplitude or hold the mean force",
                   detail::max_force_ratio,
                   format_quantity(detail::possible_amplitude(decay_length), Dimension::length, 3)));
   const double peak_curvature = reference_force * std::exp(k) / square(decay_length);
@@ -175,7 +180,8 @@ double work_per_cycle_exponential_held_force(double modulus_ratio, double mean_f
 double indentation_shift_at_held_force(double amplitude, double decay_length) {
   const double k = std::abs(amplitude) / decay_length;
   if (k >= 1) return -decay_length * (k + std::log(mean_force_ratio_scaled(k)));
-  // I_0(k) − 1 by its series, because log(1 + k²/4) loses k² against 1.
+  // Computes I_0(k) − 1 (modified Bessel function) by its series: the difference would lose the
+  // digits of k² against 1.
   double term = 1, excess = 0;
   for (int n = 1; n < 14; ++n) excess += term *= square(k / 2 / n);
   return -decay_length * std::log1p(excess);
@@ -190,7 +196,8 @@ double work_per_cycle_force_controlled(double modulus_ratio, double force_amplit
 
 double equal_frequency_ratio_scaled(double k) {
   if (k >= 1) return 1.5 * ((k - 1) + (k + 1) * std::exp(-2 * k)) / (k * k * k);
-  // 3 Σ 2n k^{2n−2}/(2n+1)!, since the closed form cancels to third order.
+  // Uses the series 3 Σ 2n k^{2n−2}/(2n+1)! for small k, since the terms of the closed form cancel
+  // to third order in k.
   double factor = 1.0 / 6, sum = 0;  // k^{2n−2}/(2n+1)!
   for (int n = 1; n < 12; ++n) {
     sum += 2 * n * factor;
@@ -210,7 +217,8 @@ double mean_force_ratio_scaled(double k) {
 }
 
 double frequency_ratio_integral(double ratio) {
-  // I = (sin²πr − 4r²)/(1 − 4r²), written around r = 1/2 where both vanish.
+  // I = (sin²πr − 4r²)/(1 − 4r²) with the frequency ratio r. Near r = 1/2 both numerator and
+  // denominator vanish, so a form without this cancellation is used.
   if (ratio < 0.25)
     return (square(std::sin(pi * ratio)) - square(2 * ratio)) / (1 - square(2 * ratio));
   const double offset = ratio - 0.5;

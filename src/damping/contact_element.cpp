@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact law as levels of springs with friction, and implicit steps of them.
+// A contact law as a stack of springs with friction (LawSprings), and the steps of a contact
+// element made of these springs, each computed from the state before the step and the position
+// after it.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/contact_element.hpp>
 #include <utility>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "max_motion.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
 namespace {
 
-// Part of the highest force: levels that bear less all lie in the lowest one.
+// Fraction of the highest force. All indentations with a smaller force belong to the lowest spring.
 constexpr double negligible_force = 1e-6;
-// Part of F/K at the highest indentation: the shortest level below the motion.
+// Distance of the first two nodes below the range of the motion is at least this fraction of F/K at
+// the highest indentation.
 constexpr double shortest_level = 1e-3;
 
-// The lowest node: where the law ends, or bears next to nothing.
+// The indentation of the lowest node: the lowest indentation of the law, or one at which F is at
+// most negligible_force times the force at `highest`.
 double deepest(const ContactLaw& law, double lowest, double highest) {
   const double bottom = law.lowest_indentation();
   const double least = negligible_force * law.force(highest);
@@ -31,7 +35,8 @@ double deepest(const ContactLaw& law, double lowest, double highest) {
   return low;
 }
 
-// Depths of levels below the motion: equal ratios of neighbours, the first as given.
+// Depths of `count` nodes below the range of the motion, up to `last`. The distances between them
+// grow in equal ratios, beginning with `first`.
 std::vector<double> depths(double first, double last, int count) {
   std::vector<double> result;
   if (!(last > 0)) return result;
@@ -50,17 +55,20 @@ std::vector<double> depths(double first, double last, int count) {
   return result;
 }
 
-// Part of K_t at a node: how far the mean of nodes where it falls may lie from it.
+// Where K_t falls from node to node, the nodes share the mean of their K_t. This mean may differ
+// from the K_t of each node by at most this fraction.
 constexpr double max_scatter = 0.25;
 
-// A rising function at the ends of an interval, and its slope there.
+// Values (low, high) and slopes of an increasing function at the two ends of an interval.
 struct Ends {
   double low, high, low_slope, high_slope;
 };
 
-// The function at the part t of the interval. A cubic with these ends is convex where what the slope
-// rises by lies in the middle third of the interval. Where it lies outside, as in wide levels and
-// at first touch, a power of the distance from one end is convex and joins the cubics smoothly.
+// Interpolates an increasing, convex function at the fraction t of an interval from its values and
+// slopes at the two ends. The cubic with these values and slopes is convex if the mean slope lies
+// in the middle third between the slopes at the ends. Otherwise, as in wide intervals and at first
+// touch, a power of the distance from one end is used, which is convex and joins the cubics
+// smoothly.
 LawSprings::Normal between(const Ends& ends, double width, double t) {
   const double mean = (ends.high - ends.low) / width - ends.low_slope;
   const double rise = ends.high_slope - ends.low_slope;
@@ -84,9 +92,10 @@ LawSprings::Normal tangent(double force, double slope, double distance) {
   return there > 0 ? LawSprings::Normal{there, slope, 0} : LawSprings::Normal{};
 }
 
-// A function given at nodes by values and slopes, and along its tangents beyond them.
+// Interpolates a function between nodes from its values and slopes there. Below the first and above
+// the last node it follows the tangent.
 LawSprings::Normal through(const std::vector<double>& node, const std::vector<double>& value,
-                          const std::vector<double>& slope, double at) {
+                           const std::vector<double>& slope, double at) {
   if (at <= node.front()) return tangent(value.front(), slope.front(), at - node.front());
   if (at >= node.back()) return tangent(value.back(), slope.back(), at - node.back());
   const std::size_t above =
@@ -96,7 +105,8 @@ LawSprings::Normal through(const std::vector<double>& node, const std::vector<do
   return between({value[i], value[above], slope[i], slope[above]}, width, (at - node[i]) / width);
 }
 
-// The rising sequence nearest to one that scatters: values that fall share their mean.
+// The increasing sequence closest to `values` (least squares): neighbouring values that fall are
+// replaced by their mean.
 std::vector<double> rising(const std::vector<double>& values) {
   struct Block {
     double sum = 0;
@@ -118,15 +128,15 @@ std::vector<double> rising(const std::vector<double>& values) {
 }  // namespace
 
 LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
-                     const LawSpringsOptions& options)
+                       const LawSpringsOptions& options)
     : friction_coefficient_(options.friction_coefficient) {
   require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
-  require(options.springs >= 8 && options.springs <= 4096, "intervals", options.springs,
+  require(options.springs >= 8 && options.springs <= 4096, "springs", options.springs,
           "must lie between 8 and 4096");
   require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "lowest", lowest,
           "and highest must be finite and in this order");
-  require(law.force(highest) > 0, "highest", highest, "m is where nothing touches");
+  require(law.force(highest) > 0, "highest", highest, "m is an indentation without contact");
   detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
   const int half = options.springs / 2;
   std::vector<double> nodes;
@@ -139,7 +149,7 @@ LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
   for (const double at : law.break_points())
     if (std::isfinite(at) && at > bottom && at < highest && law.force(at) == 0) nodes.push_back(at);
   std::ranges::sort(nodes);
-  // Nodes closer than this are one.
+  // Nodes closer to each other than this are merged.
   const double apart = 1e-9 * (highest - bottom) + 1e-15 * std::abs(highest);
   for (const double node : nodes)
     if (node_.empty() || node > node_.back() + apart) node_.push_back(node);
@@ -147,8 +157,8 @@ LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
   set_tangential(law);
 }
 
-// F and K at the nodes. Where the law scatters so much that F between two nodes would not rise, K
-// is lowered.
+// Sets F and K at the nodes. Lowers K where the data scatter so much that F, interpolated between
+// two nodes, would not increase.
 void LawSprings::set_normal(const ContactLaw& law) {
   for (const double node : node_) {
     force_.push_back(law.force(node));
@@ -160,15 +170,15 @@ void LawSprings::set_normal(const ContactLaw& law) {
     slope_[i - 1] = std::min(slope_[i - 1], 3 * mean);
     slope_[i] = std::min(slope_[i], 3 * mean);
   }
-  // The tangent at the lowest node has to reach 0.
+  // The tangent at the lowest node must fall to F = 0 at some lower indentation.
   if (force_.front() > 0 && !(slope_.front() > 0) && node_.size() > 1)
     slope_.front() = (force_[1] - force_[0]) / (node_[1] - node_[0]);
 }
 
-// K_t of the levels, and G at the nodes.
+// Sets K_t of the springs, and G = ∫K_t dζ at the nodes.
 void LawSprings::set_tangential(const ContactLaw& law) {
   std::vector<double> stiffness;
-  bool proportional = true;  // K_t to K, so that ∫K_t is known
+  bool proportional = true;  // K_t/K is the same at all nodes, so ∫K_t is a multiple of F
   for (std::size_t i = 0; i < node_.size(); ++i) {
     stiffness.push_back(law.tangential_stiffness(node_[i]));
     proportional = proportional && law.stiffness_ratio(node_[i]) == law.modulus_ratio();
@@ -176,8 +186,8 @@ void LawSprings::set_tangential(const ContactLaw& law) {
   sum_ = rising(stiffness);
   for (std::size_t i = 0; i < node_.size(); ++i)
     require(std::abs(sum_[i] - stiffness[i]) <= max_scatter * sum_[i], "law", node_[i],
-            "m has a tangential stiffness by more than a quarter off the mean of those about it, "
-            "which fall; smooth the curve, or leave out the sample there");
+            "m has a tangential stiffness that differs by more than a quarter from the mean of its "
+            "neighbours, which fall; smooth the curve or leave out this sample");
   const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];
   stiffness_ = {sum_[0]}, depth_ = {floor}, held_ = {sum_[0] * (node_[0] - floor)};
   for (std::size_t i = 1; i < node_.size(); ++i) {
@@ -187,7 +197,7 @@ void LawSprings::set_tangential(const ContactLaw& law) {
                      : detail::integrate([&](double at) { return law.tangential_stiffness(at); },
                                          detail::sweep_breaks(law, node_[i - 1], node_[i]), 1e-10)
                            .value;
-    // Springs of a level lie in it.
+    // A spring represents all springs between two nodes, so its depth must lie between these nodes.
     constexpr double edge = 1e-3;
     const double mean = gain / width - sum_[i - 1];
     const double within = std::clamp(mean, edge * rise, (1 - edge) * rise);
@@ -210,7 +220,8 @@ ContactElement::ContactElement(std::shared_ptr<const LawSprings> springs)
   require(springs_ != nullptr, "intervals", "none", "must be given");
   state_.assign(3 + 2 * springs_->size(), 0.0);
   held_.assign(springs_->size(), {});
-  state_[0] = springs_->depth_.front();  // where F along the lowest tangent is 0
+  // The indentation at which the tangent of F at the lowest node reaches 0.
+  state_[0] = springs_->depth_.front();
 }
 
 void ContactElement::start(double indentation, double x, double y) {
@@ -224,7 +235,8 @@ void ContactElement::start(double indentation, double x, double y) {
   sum(0, springs_->size());
 }
 
-// Sums what levels from here on hold, below the last.
+// Updates held_, the forces of the anchors Σ K_t x0 and Σ K_t y0 summed from the lowest spring on,
+// for the springs in [from, to).
 void ContactElement::sum(std::size_t from, std::size_t to) {
   const std::size_t count = springs_->size();
   std::array<double, 2> sum = from > 0 ? held_[from - 1] : std::array<double, 2>{};
@@ -237,16 +249,17 @@ void ContactElement::sum(std::size_t from, std::size_t to) {
 
 void ContactElement::restore(std::span<const double> state) {
   require(state.size() == state_.size(), "state", state.size(),
-          "numbers are not those of these levels");
+          "numbers do not match the number of springs");
   for (const double one : state) require(std::isfinite(one), "state", one, "must be finite");
   std::ranges::copy(state, state_.begin());
   sum(0, springs_->size());
 }
 
-// A step from the state of an element, level by level.
+// A step from the state of an element to a new position of the body, spring by spring.
 struct ContactElement::Step {
-  // A level that holds the body with f if it sticks, ∂f/∂x = hold·1 and ∂f/∂δ = push, and with
-  // μ(F/G)·bears at most.
+  // One spring. If it sticks, it exerts the force f on the body, with ∂f/∂x = hold · (unit matrix)
+  // and ∂f/∂δ = push. The magnitude of its force is limited to μ(F/G) · bears, where bears = k(δ −
+  // c) for a spring of stiffness k and depth c, and G is the sum of `bears` over the springs.
   struct Level {
     double k, f_x, f_y, hold, push_x, push_y, bears, bears_slope;
   };
@@ -277,7 +290,8 @@ struct ContactElement::Step {
 
   bool full_stick() const { return std::isinf(of.friction_coefficient_); }
 
-  // The lowest level touches and parts as one, where its force is 0.
+  // Indentation at which spring i begins to touch. The lowest spring touches and separates at the
+  // indentation where its normal force is 0.
   double floor(std::size_t i) const { return i > 0 ? of.node_[i - 1] : of.depth_[0]; }
 
   bool held_throughout(std::size_t i) const {
@@ -292,14 +306,16 @@ struct ContactElement::Step {
         k};
   }
 
-  // The stiffness of a level that touches at an indentation, and its derivative.
-  std::pair<double, double> touched(std::size_t i, double at, const LawSprings::Normal& held) const {
+  // Stiffness of the touching part of spring i at the indentation `at`, and its derivative with
+  // respect to the indentation.
+  std::pair<double, double> touched(std::size_t i, double at,
+                                    const LawSprings::Normal& held) const {
     if (at <= floor(i)) return {0, 0};
     if (i == 0 || at >= of.node_[i]) return {of.stiffness_[i], 0};
     return {held.stiffness - of.sum_[i - 1], held.curvature};
   }
 
-  // A level in which the step begins or ends, or which it passes.
+  // A spring between whose two nodes the step begins or ends, or which the step crosses.
   Level passed(std::size_t i) const {
     const auto [k, slope] = touched(i, indentation, now);
     const double k_before = touched(i, before, then).first;
@@ -316,7 +332,8 @@ struct ContactElement::Step {
       spring_depth.push_x = slope * stretch_x, spring_depth.push_y = slope * stretch_y;
       return spring_depth;
     }
-    // Springs that touch on the way are anchored where the body was in the middle of them.
+    // The part of the spring that touches during the step is anchored where the body is in the
+    // middle of the indentations at which this part touches.
     const double climb = indentation - before, start = std::max(floor(i), before);
     const double finish = i == 0 ? start : std::min(of.node_[i], indentation);
     const double fraction = (0.5 * (start + finish) - before) / climb;
@@ -329,15 +346,19 @@ struct ContactElement::Step {
     return spring_depth;
   }
 
-  double limit_of(const Level& spring_depth) const { return share * std::max(0.0, spring_depth.bears); }
+  double limit_of(const Level& spring_depth) const {
+    return share * std::max(0.0, spring_depth.bears);
+  }
 
   bool sticks(const Level& spring_depth) const {
     if (full_stick()) return true;
     const double limit = limit_of(spring_depth);
-    return spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y <= limit * limit;
+    return spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y <=
+           limit * limit;
   }
 
-  // How many levels, from the lowest on, the step holds throughout and leaves sticking.
+  // Number of springs, counted from the lowest, that touch during the whole step and stick at its
+  // end.
   std::size_t sticking() const {
     std::size_t whole = 0;
     while (whole < touching && held_throughout(whole)) ++whole;
@@ -350,8 +371,9 @@ struct ContactElement::Step {
     return whole;
   }
 
-  // Goes down from the last level that touches to those that only stick; anchor(i, x, y) is told of
-  // each on the way. Returns how many levels it left alone.
+  // Goes down from the highest touching spring to those that keep their anchors, and calls
+  // anchor(i, x, y) with the new anchor of each spring. Returns the number of springs below that
+  // keep their anchors.
   template <typename Anchor>
   std::size_t follow(const Anchor& anchor) {
     const std::size_t lowest = sticking();
@@ -360,7 +382,8 @@ struct ContactElement::Step {
       const Level spring_depth = held_throughout(i - 1) ? whole(i - 1) : passed(i - 1);
       const double part = add(spring_depth);
       if (spring_depth.k > 0)
-        anchor(i - 1, x - part * spring_depth.f_x / spring_depth.k, y - part * spring_depth.f_y / spring_depth.k);
+        anchor(i - 1, x - part * spring_depth.f_x / spring_depth.k,
+               y - part * spring_depth.f_y / spring_depth.k);
     }
     if (i == 0) return 0;
     force_x += of.sum_[i - 1] * x - held[i - 1][0], xx += of.sum_[i - 1];
@@ -368,7 +391,8 @@ struct ContactElement::Step {
     return i;
   }
 
-  // Adds a level, and returns the part of its stretch that the limit of friction leaves.
+  // Adds the force and stiffness of a spring to the sums. Returns the fraction of its stretch that
+  // remains after slip.
   double add(const Level& spring_depth) {
     if (sticks(spring_depth)) {
       force_x += spring_depth.f_x, force_y += spring_depth.f_y;
@@ -376,8 +400,10 @@ struct ContactElement::Step {
       xx += spring_depth.hold, yy += spring_depth.hold;
       return 1;
     }
-    // The part that pulls across the stretch remains; along it the limit decides.
-    const double size = std::sqrt(spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y);
+    // Perpendicular to the stretch, ∂f/∂δ of the sticking spring remains; along the stretch the
+    // friction limit sets the force.
+    const double size =
+        std::sqrt(spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y);
     const double limit = limit_of(spring_depth);
     const double n_x = spring_depth.f_x / size, n_y = spring_depth.f_y / size;
     const double part = limit / size;
@@ -400,10 +426,11 @@ struct ContactElement::Step {
   const LawSprings& of;
   const double *anchor_x, *anchor_y;
   const std::vector<std::array<double, 2>>& held;
-  std::size_t touching;  // levels that touch at the end
+  std::size_t touching;  // number of springs that touch at the end of the step
   double indentation, x, y, before, travel_x, travel_y;
-  LawSprings::Normal normal, now, then;  // F, and G at the end and before
-  double share = 0, share_slope = 0;    // μF/G, and its derivative
+  // The normal force F (`normal`) and G (`now`) at the end of the step, and G before it (`then`).
+  LawSprings::Normal normal, now, then;
+  double share = 0, share_slope = 0;  // μF/G, and its derivative with respect to δ
   double force_x = 0, force_y = 0, along_x = 0, along_y = 0, xx = 0, xy = 0, yy = 0;
 };
 

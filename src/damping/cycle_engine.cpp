@@ -40,7 +40,7 @@ TrajectoryRange checked_range(const Trajectory& trajectory, const CycleOptions& 
   if (trajectory.tangential_force)
     throw InvalidInput(
         "tangential_force",
-        "is given together with tangential, or to a cycle without friction; leave it out");
+        "is given together with tangential, or for a cycle without friction; leave it out");
   TrajectoryRange range;
   for (int k = 0; k <= options.steps; ++k) {
     const double t = static_cast<double>(k) / options.steps;
@@ -58,11 +58,14 @@ const State* resumed(const CycleOptions& options, const Grid2D& grid) {
   const CycleState& state = *options.resume;
   const auto* body = std::get_if<State>(&state.body);
   if (body == nullptr)
-    throw InvalidInput("resume", "is the state of another kind of cycle; name that of this one");
+    throw InvalidInput("resume",
+                       "is the state of another kind of cycle; name the file of this cycle");
   require(state.smallest.rows() == grid.nx && state.smallest.cols() == grid.ny, "resume",
-          state.smallest.size(), "cells do not match the grid; resume with the run's own settings");
+          state.smallest.size(),
+          "cells do not match the grid; resume with the settings of the first run");
   require(state.step >= 0 && state.step <= options.steps && state.period < options.max_periods,
-          "resume", state.step, "is not one of the steps; resume with the run's own settings");
+          "resume", state.step,
+          "is not one of the steps; resume with the settings of the first run");
   return body;
 }
 template const StuckState* resumed<StuckState>(const CycleOptions& options, const Grid2D& grid);
@@ -71,7 +74,8 @@ template const CoupledState* resumed<CoupledState>(const CycleOptions& options, 
 
 namespace {
 
-/// One run of a cycle until it is steady: the state that can be kept, and the result so far.
+/// Simulates periods of a cycle until the loss repeats. Holds the state from which a later run can
+/// resume, and the result so far.
 class CycleRun {
  public:
   CycleRun(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
@@ -83,7 +87,7 @@ class CycleRun {
         start_(trajectory.tangential(0)) {
     if (options.resume) {
       state_ = *options.resume;
-      state_.body = {};  // the body has its own
+      state_.body = {};  // Saves memory: the body has its own copy of this state.
     } else {
       start_period();
     }
@@ -92,7 +96,8 @@ class CycleRun {
   CycleResult run(bool first_is_steady) {
     const int steps = options_.steps;
     result_.termination = Termination::converged;
-    bool sampled = options_.resume != nullptr;  // whether the step k has its sample already
+    // Whether step k already has its sample; true for the first step of a resumed run.
+    bool sampled = options_.resume != nullptr;
     for (int k = state_.step;; sampled = false) {
       if (!sampled) take_step(k);
       if (body_.termination() == Termination::interrupted ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact under fast oscillation as a damper: map of its constant, decay, stability border.
+// Contact under fast normal oscillation as a tangential damper: map of its damping constant γ,
+// decay of a tangential oscillator, stability border of sliding.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,13 +8,13 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/damper.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "max_motion.hpp"
 
 namespace salebra {
 namespace {
 
-// γ does not depend on the drag velocity.
+// Damping constant of a contact that is dragged; it does not depend on the drag velocity.
 DampingResult damper_at(const ContactLaw& law, const OperatingPoint& point, double amplitude,
                         double angular_frequency, const DampingOptions& options) {
   const DampingResult result = relaxation_damping(law, point,
@@ -49,13 +50,14 @@ OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffne
   decay.contact_stiffness = contact_stiffness;
   const double stiffness = oscillator.spring_stiffness + decay.contact_stiffness;
   require(stiffness > 0, "spring_stiffness", oscillator.spring_stiffness,
-          "N/m leaves nothing to oscillate against, because the contact opens; give a spring");
+          "N/m leaves the oscillator without stiffness, because the contact opens; give a spring");
   decay.natural_frequency = std::sqrt(stiffness / oscillator.mass);
   decay.frequency_ratio = decay.natural_frequency / angular_frequency;
   const double ratio = decay.damping_constant / (2 * oscillator.mass * decay.natural_frequency);
   decay.damping_ratio = ratio;
   decay.quality_factor = 1 / (2 * ratio);
-  // Overdamped: ω0(ζ − √(ζ² − 1)), written without the difference.
+  // Overdamped decay at the rate ω0(D − √(D² − 1)) with the damping ratio D, written without the
+  // difference of two close numbers.
   const double rate = ratio < 1 ? ratio : 1 / (ratio + std::sqrt((ratio - 1) * (ratio + 1)));
   decay.decay_time = 1 / (decay.natural_frequency * rate);
   decay.logarithmic_decrement =
@@ -84,8 +86,8 @@ DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
 }
 
 double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
-                             double angular_frequency, double falling_slope,
-                             double max_amplitude, const DampingOptions& options) {
+                             double angular_frequency, double falling_slope, double max_amplitude,
+                             const DampingOptions& options) {
   require_positive(falling_slope, "falling_slope");
   require_positive(max_amplitude, "max_amplitude");
   if (options.hold == Hold::indentation)
@@ -95,10 +97,10 @@ double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
     return damper_at(law, point, amplitude, angular_frequency, options).damping_constant -
            falling_slope;
   };
-  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough
-  // brackets the least amplitude. The steps begin well below what the proportion asks for and no
-  // lower, since the loss at finite amplitude drowns in round-off where the sweep is a last digit
-  // of δ.
+  // Searches the smallest amplitude that gives the required γ. γ grows in proportion to u_z at
+  // first and may have a maximum, so fine steps are taken, and the first step with enough γ
+  // brackets the amplitude. They begin well below the amplitude that the proportion gives, but no
+  // lower: if u_z is as small as the last digit of δ, round-off exceeds the loss.
   DampingOptions small = options;
   small.amplitude = Amplitude::small;
   const double proportional =
@@ -110,8 +112,7 @@ double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
       static_cast<int>(std::ceil(steps_per_octave * std::log2(max_amplitude / lowest)));
   double below = 0;
   for (int i = -steps; i <= 0; ++i) {
-    const double amplitude =
-        max_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
+    const double amplitude = max_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
     if (excess(amplitude) >= 0) return detail::find_root(excess, below, amplitude);
     below = amplitude;
   }

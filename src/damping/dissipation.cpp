@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The theorem W = ½∮s² dK_t for any contact law, at fixed indentation or fixed force.
+// The theorem W = ½∮s² dK_t for any contact law, at a held mean indentation or a held mean force
+// (s: stretch of a spring where it separates).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,8 +11,8 @@
 #include <salebra/damping/dissipation.hpp>
 #include <sstream>
 
+#include "base/numerics/quadrature.hpp"
 #include "base/special_values.hpp"
-#include "contact/quadrature.hpp"
 #include "max_motion.hpp"
 #include "sweep_breaks.hpp"
 
@@ -34,20 +35,25 @@ void require_amplitude(double amplitude) {
           "must be finite and >= 0; a negative one is a phase shift of pi");
 }
 
-// What distinguishes one kind of tangential motion from another, under δ = δ0 + u_z cosθ or any
-// other even θ ↦ δ that falls from 0 to π:
+// A tangential motion under δ = δ0 + u_z cosθ, or under any other even function δ(θ) that falls
+// from θ = 0 to π. Its loss is
 //     W = square_velocity · scale · ∫_0^π weight(θ) [K_t(δ(θ)) − K_t(reference)] dθ.
 struct Kernel {
   double normal_amplitude = 0;
-  double square_velocity = 0;  // u_x² or v²: γ needs W without it
+  // u_x² or v²; W without this factor gives γ, also for u_x = 0 or v = 0.
+  double square_velocity = 0;
   double scale = 0;
   std::function<double(double)> weight;
-  double absolute_weight = 0;       // ∫|weight|, for the round-off
-  bool reference_is_bottom = true;  // else the middle, where ∫ weight = 0
-  double small_amplitude = 0;  // W = (G*/E*)F'' u_z · small_amplitude · square_velocity as u_z → 0
-  double rate = unknown;       // periods per second
-  double mean_square_velocity = 1;  // ⟨ẋ²⟩ for square_velocity = 1
-  bool periodic = true;             // else W is the mean per normal cycle
+  double absolute_weight = 0;  // ∫|weight| dθ, to bound the round-off error
+  // K_t(reference) is K_t(δ(π)); false: K_t(δ(π/2)), allowed where ∫ weight dθ = 0.
+  bool reference_is_bottom = true;
+  // W = (G*/E*)F'' u_z · small_amplitude · square_velocity in the limit u_z → 0.
+  double small_amplitude = 0;
+  double rate = unknown;  // periods per second
+  // Time average of the squared tangential velocity for square_velocity = 1.
+  double mean_square_velocity = 1;
+  // False: the motion has no period, and W is the mean per normal cycle.
+  bool periodic = true;
 };
 
 Kernel kernel_of(const EqualFrequency& motion) {
@@ -126,29 +132,29 @@ void require_covered(const ContactLaw& law, double mean_indentation, double ampl
   require(false, "normal_amplitude", amplitude, constraint.str());
 }
 
-// A force that overflows makes losses that are no numbers, or worse, some.
+// Throws if the force at the largest indentation overflows, since losses would be NaN or wrong.
 void require_representable(const ContactLaw& law, double mean_indentation, double amplitude) {
   const double highest = mean_indentation + amplitude;
   const double limit = std::sqrt(std::numeric_limits<double>::max());
   require(law.force(highest) < limit && law.tangential_stiffness(highest) < limit,
           "normal_amplitude", amplitude,
-          "m takes the contact's force beyond all measure; reduce the amplitude");
+          "m makes the contact force overflow; reduce the amplitude");
 }
 
-// Phases between 0 and π at which δ = δ0 + u_z cosθ passes a break of the law, with both ends.
+// Phases from 0 to π, both included, at which δ = δ0 + u_z cosθ passes a break point of the law.
 std::vector<double> break_angles(const ContactLaw& law, double mean_indentation, double amplitude) {
   const double low = mean_indentation - amplitude, high = mean_indentation + amplitude;
   if (!(low < high)) return {0, pi};
   std::vector<double> angles;
   for (const double point : detail::sweep_breaks(law, low, high))
-    // Half angles are taken: arccos loses half the digits at both ends.
+    // Computes half angles by arctan, because arccos loses half the digits near 0 and π.
     angles.push_back(2 * std::atan2(std::sqrt(high - point), std::sqrt(point - low)));
   std::ranges::reverse(angles);
   return angles;
 }
 
-// One cycle of the normal motion: K_t as a function of the phase θ, even about θ = 0 where δ is
-// largest.
+// One cycle of the normal motion: K_t as a function of the phase θ, an even function about θ = 0,
+// at which δ is largest.
 struct NormalCycle {
   std::function<double(double)> stiffness;
   std::vector<double> break_angles;
@@ -163,16 +169,17 @@ double mean_of_force(const ContactLaw& law, double mean_indentation, double ampl
   return detail::integrate(force, break_angles(law, mean_indentation, amplitude), 1e-12).value / pi;
 }
 
-// W for a square_velocity of 1.
+// Loss W of a tangential motion with square_velocity = 1.
 detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, double tolerance) {
-  // A constant may be taken off K_t, and what is left hardly cancels.
+  // Subtracting a constant from K_t does not change W, and makes the integrand small where it would
+  // cancel.
   const double reference =
       kernel.reference_is_bottom ? cycle.stiffness_at_bottom : cycle.stiffness_at_middle;
   detail::Integral integral = detail::integrate(
       [&](double angle) { return kernel.weight(angle) * (cycle.stiffness(angle) - reference); },
       cycle.break_angles, tolerance);
-  // K_t is known to a few units in its last place; where that is all there is, the tolerance cannot
-  // be reached and does not count.
+  // K_t itself is only accurate to a few units in its last place. An estimated integration error
+  // below this accuracy counts as converged, even if it exceeds the tolerance.
   const double round_off = 4 * epsilon * cycle.stiffness_at_top * kernel.absolute_weight;
   integral.converged = integral.converged || integral.error <= round_off;
   return {kernel.scale * integral.value, kernel.scale * (integral.error + round_off),
@@ -182,7 +189,7 @@ detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, dou
 void set_work(DampingResult& result, const detail::Integral& factor, const Kernel& kernel) {
   const double work = factor.value * kernel.square_velocity;
   require(std::isfinite(work), "normal_amplitude", kernel.normal_amplitude,
-          "m makes a loss beyond all measure with this tangential motion; reduce them");
+          "m makes the loss overflow with this tangential motion; reduce both");
   result.work_per_cycle = kernel.periodic ? work : unknown;
   result.work_per_cycle_without_slip = result.work_per_cycle;
   result.error_estimate = factor.error * kernel.square_velocity;
@@ -191,7 +198,7 @@ void set_work(DampingResult& result, const detail::Integral& factor, const Kerne
   result.damping_constant_without_slip = result.damping_constant;
   result.damping_per_work = kernel.rate / (kernel.mean_square_velocity * kernel.square_velocity);
   require(!std::isinf(result.power) && !std::isinf(result.damping_constant), "angular_frequency",
-          2 * pi * kernel.rate, "rad/s makes a damping beyond all measure");
+          2 * pi * kernel.rate, "rad/s makes the damping overflow");
   result.converged = factor.converged;
 }
 
@@ -216,7 +223,7 @@ double settled_indentation(const ContactLaw& law, const OperatingPoint& point) {
   return indentation_of(law, point);
 }
 
-// The loss about a mean indentation at a finite amplitude.
+// Sets the loss for a finite amplitude about a mean indentation. middle: mean indentation, m.
 void set_finite(DampingResult& result, const ContactLaw& law, double middle, const Kernel& kernel,
                 double tolerance) {
   const double amplitude = kernel.normal_amplitude;
@@ -263,8 +270,8 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   require_positive(mean_force, "force");
   require(force_amplitude >= 0 && force_amplitude <= mean_force, "force_amplitude", force_amplitude,
           "must lie between 0 and the mean force");
-  // indentation_of() needs F > 0; 280 decades below the mean every K_t has reached its limit at F =
-  // 0.
+  // indentation_of() needs F > 0. At 1e-280 times the mean force, K_t of every law equals its limit
+  // for F = 0.
   const double least = std::max(1e-280 * mean_force, std::numeric_limits<double>::min());
   auto stiffness_at = [&](double force) {
     return law.tangential_stiffness(law.indentation_of(std::max(force, least)));
@@ -281,7 +288,8 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   } else {
     const NormalCycle cycle{
         [&](double angle) {
-          // F0 − F_a + F_a(1 + cosθ), so that F is accurate near a bottom at 0.
+          // F0 + F_a cosθ with the mean force F0 and the amplitude F_a, written as (F0 − F_a) +
+          // F_a(1 + cosθ), so that F is accurate where it falls to 0.
           return stiffness_at((mean_force - force_amplitude) +
                               2 * force_amplitude * square(std::cos(angle / 2)));
         },
@@ -330,8 +338,8 @@ double indentation_at_mean_force(const ContactLaw& law, double mean_force, doubl
   require_positive(mean_force, "force");
   const double settled = law.indentation_of(mean_force);
   if (amplitude == 0) return settled;
-  // F grows with δ, so F(δ0 − u_z) <= mean <= F(δ0 + u_z): δ0 is within u_z of where the force
-  // would rest without oscillation.
+  // F grows with δ, so F(δ0 − u_z) <= mean force <= F(δ0 + u_z). The mean indentation δ0 therefore
+  // differs by at most u_z from the indentation without oscillation.
   const double low = std::max(settled - amplitude, law.lowest_indentation() + amplitude);
   const double high = std::min(settled + amplitude, law.highest_indentation() - amplitude);
   if (!(low <= high)) require_covered(law, settled, amplitude);
@@ -360,7 +368,8 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
                                               std::span<const DampingCase> cases,
                                               const DampingOptions& options) {
   std::vector<DampingResult> results(cases.size());
-  // Blocks, so that the progress comes from the calling thread.
+  // Computes the cases in blocks, so that progress can be reported from the calling thread in
+  // between.
   constexpr std::size_t block = 64;
   for (std::size_t first = 0; first < cases.size(); first += block) {
     const std::size_t count = std::min(block, cases.size() - first);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loss at finite friction over the loss at full stick, over friction number and phase.
+// Map of the loss with friction divided by the loss in full stick, over the friction number M =
+// μu_zK/(u_xK_t) and the phase.
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The theorem by quadrature over phase nodes, with a contact set and its stiffness at each.
+// The theorem W = ½∮s² dK_t (s: stretch of a spring where it separates) by quadrature over the
+// phase θ, with a contact set and its stiffness at each node.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,8 +12,8 @@
 #include <salebra/damping/interval_quadrature.hpp>
 #include <vector>
 
+#include "base/numerics/dense_systems.hpp"
 #include "phase_quadrature.hpp"
-#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -25,11 +26,11 @@ using detail::Node;
 using detail::normal_amplitude;
 using std::numbers::pi;
 
-// A function of the phase by its Chebyshev coefficients in c = cosθ.
+// A function of the phase θ, given by its Chebyshev coefficients as a polynomial in c = cosθ.
 struct Series {
   Eigen::VectorXd coefficients;
-  Eigen::MatrixXd normal_inverse;  // (XᵀX)⁻¹ of the fit
-  double scatter = 0;              // standard deviation of the data about it
+  Eigen::MatrixXd normal_inverse;  // (XᵀX)⁻¹ with the design matrix X of the least-squares fit
+  double scatter = 0;              // standard deviation of the data about the fit
 
   double operator()(double theta) const {
     double sum = 0;
@@ -38,8 +39,9 @@ struct Series {
     return sum;
   }
   double slope(double theta) const;
-  double second_slope_at_middle() const {  // with respect to c
-    double sum = 0;                        // (1 − c²)T'' = cT' − l²T
+  double second_slope_at_middle() const {  // d²/dc² at c = 0 (θ = π/2)
+    // Uses (1 − c²)T'' = cT' − l²T for the Chebyshev polynomial T of degree l.
+    double sum = 0;
     for (Index l = 2; l < coefficients.size(); ++l) {
       const double order = static_cast<double>(l);
       sum -= coefficients(l) * order * order * std::cos(order * pi / 2);
@@ -55,8 +57,8 @@ double Series::slope(double theta) const {
   return sum;
 }
 
-// Data of a fit: values of the function at some phases, values of its slope d/dc at others with a
-// weight of their own.
+// Data of a fit: values of the function at the phases `theta`, and derivatives d/dc with c = cosθ
+// at the phases `slope_theta`, weighted by slope_weight.
 struct FitData {
   std::vector<double> theta, values, slope_theta, slopes;
   double slope_weight = 1;
@@ -83,8 +85,8 @@ Series fit(const FitData& data, int degree) {
   return series;
 }
 
-// The degree with the least generalised cross-validation error; a higher one only follows the
-// noise.
+// Fits polynomials of all degrees up to the highest one and returns that with the smallest
+// generalised cross-validation error; polynomials of higher degree only follow the noise.
 Series best_fit(const FitData& data, int highest_degree) {
   const double rows = static_cast<double>(data.theta.size() + data.slopes.size());
   Series best;
@@ -100,8 +102,8 @@ Series best_fit(const FitData& data, int highest_degree) {
   return best;
 }
 
-// What independent errors of K_t at the nodes, and of the least one, make of W: the square root of
-// the sum of their squares.
+// Error of W that follows from independent errors of K_t, `errors` at the nodes and `error_of_min`
+// at the smallest indentation: the square root of the sum of the squared contributions to W.
 double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
                        const std::vector<double>& errors, double error_of_min) {
   double sum = std::pow(loss(motion, nodes, [](std::size_t) { return 0.0; }, error_of_min), 2);
@@ -123,45 +125,49 @@ void validate(const Oscillation& motion, double mean_indentation,
           "must be 0 where the lateral displacement is free; turn the surface instead");
 }
 
-struct LevelValues {
+struct ContactValues {
   ForceSample sample;
   double ratio = ForceSample::unknown;  // K_t/((G*/E*)K)
 };
 
-// The problem, and the contacts that are solved for it.
-class LevelSolver {
+// Solves the contacts at the phases of one quadrature.
+class IntervalSolver {
  public:
-  LevelSolver(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
-              const IntervalQuadratureOptions& options, IntervalQuadratureResult& result)
-      : intervals_(intervals), grid_(grid), material_(material), options_(options), result_(result) {}
+  IntervalSolver(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+                 const IntervalQuadratureOptions& options, IntervalQuadratureResult& result)
+      : contact_sets_(contact_sets),
+        grid_(grid),
+        material_(material),
+        options_(options),
+        result_(result) {}
 
-  LevelValues at(double indentation, bool with_stiffness) {
-    LevelValues values;
+  ContactValues at(double indentation, bool with_stiffness) {
+    ContactValues values;
     values.sample.indentation = indentation;
-    const ContactSetAt level = intervals_(indentation);
-    values.sample.force = level.force;
-    values.sample.pressure = level.force / grid_.area();
+    const ContactSetAt reached = contact_sets_(indentation);
+    values.sample.force = reached.force;
+    values.sample.pressure = reached.force / grid_.area();
     values.sample.contact_area_fraction =
-        static_cast<double>(level.contact.count()) / static_cast<double>(grid_.points());
-    values.sample.converged = level.converged;
-    if (with_stiffness) add_stiffness(level, values);
-    if (!level.converged)
+        static_cast<double>(reached.contact.count()) / static_cast<double>(grid_.points());
+    values.sample.converged = reached.converged;
+    if (with_stiffness) add_stiffness(reached, values);
+    if (!reached.converged)
       result_.termination = std::max(result_.termination, Termination::iteration_limit);
     return values;
   }
 
  private:
-  void add_stiffness(const ContactSetAt& level, LevelValues& values) {
+  void add_stiffness(const ContactSetAt& reached, ContactValues& values) {
     const double modulus_ratio = material_.modulus_ratio();
     Field pressure;
-    const PunchStiffness punch = punch_stiffness(level.contact, grid_, material_.contact_modulus,
+    const PunchStiffness punch = punch_stiffness(reached.contact, grid_, material_.contact_modulus,
                                                  {.tolerance = options_.stick.tolerance,
                                                   .max_iterations = options_.stick.max_iterations,
                                                   .boundary = options_.stick.boundary,
                                                   .on_progress = options_.stick.on_progress},
                                                  &pressure);
     const StickStiffness stick =
-        stick_stiffness(level.contact, grid_, material_, options_.stick, options_.direction == 0,
+        stick_stiffness(reached.contact, grid_, material_, options_.stick, options_.direction == 0,
                         Field(pressure * modulus_ratio));
     const double c = std::cos(options_.direction), s = std::sin(options_.direction);
     values.sample.tangential_stiffness =
@@ -170,50 +176,52 @@ class LevelSolver {
     values.sample.normal_stiffness = punch.normal_stiffness;
     if (punch.normal_stiffness > 0)
       values.ratio = values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
-    values.sample.converged = level.converged && stick.converged() && punch.converged();
+    values.sample.converged = reached.converged && stick.converged() && punch.converged();
     result_.termination = std::max({result_.termination, stick.termination, punch.termination});
     result_.iterations += stick.iterations + punch.iterations;
     result_.fft_count += stick.fft_count + punch.fft_count;
   }
 
-  const ContactSets& intervals_;
+  const ContactSets& contact_sets_;
   const Grid2D& grid_;
   const Material& material_;
   const IntervalQuadratureOptions& options_;
   IntervalQuadratureResult& result_;
 };
 
-// Levels from the greatest indentation to the least, the nodes between the two ends.
-struct SolvedLevels {
+// Contacts in order of falling indentation: at the largest one, at the nodes, at the smallest one.
+struct SolvedContacts {
   std::vector<Node> nodes;
   std::vector<double> theta;
-  std::vector<LevelValues> values;
+  std::vector<ContactValues> values;
 };
 
-// What the levels say of W. In a drag the stiffness at the least of them counts too.
-class LossOfLevels {
+// Estimates of W from the contacts. Under a drag, W also depends on the stiffness at the smallest
+// indentation.
+class LossOfContacts {
  public:
-  LossOfLevels(const SolvedLevels& intervals, const Oscillation& motion, double modulus_ratio)
-      : intervals_(intervals),
+  LossOfContacts(const SolvedContacts& contacts, const Oscillation& motion, double modulus_ratio)
+      : contacts_(contacts),
         motion_(motion),
         drag_(std::holds_alternative<Drag>(motion)),
         amplitude_(normal_amplitude(motion)),
         modulus_ratio_(modulus_ratio) {
-    // F and K = F' are known together. F feels the cells that enter one by one less than K does.
+    // The force F and the stiffness K = F' are fitted together. F gets more weight, because it
+    // scatters less than K when cells enter one by one.
     normal_.slope_weight = 0.1;
-    for (std::size_t k = 0; k < intervals.values.size(); ++k) {
-      const auto& [sample, ratio] = intervals.values[k];
-      normal_.theta.push_back(intervals.theta[k]);
+    for (std::size_t k = 0; k < contacts.values.size(); ++k) {
+      const auto& [sample, ratio] = contacts.values[k];
+      normal_.theta.push_back(contacts.theta[k]);
       normal_.values.push_back(sample.force);
       if (!std::isfinite(sample.normal_stiffness)) continue;
-      normal_.slope_theta.push_back(intervals.theta[k]);
+      normal_.slope_theta.push_back(contacts.theta[k]);
       normal_.slopes.push_back(sample.normal_stiffness * amplitude_);
       if (!std::isfinite(ratio)) continue;
-      ratios_.theta.push_back(intervals.theta[k]);
+      ratios_.theta.push_back(contacts.theta[k]);
       ratios_.values.push_back(ratio);
     }
-    // Eighth degree: what follows the indentation faster is noise of the cells.
-    highest_degree_ = std::min(static_cast<int>(intervals.nodes.size()) / 2, 8);
+    // The degree is at most 8: faster variations with the indentation are noise of the cells.
+    highest_degree_ = std::min(static_cast<int>(contacts.nodes.size()) / 2, 8);
     force_ = best_fit(normal_, highest_degree_);
   }
 
@@ -221,8 +229,8 @@ class LossOfLevels {
     result.work_by_intervals = of_levels(&ForceSample::tangential_stiffness, 1);
     result.work_by_force = by_force(force_);
     result.force = force_(pi / 2);
-    // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
-    // point does not.
+    // The second derivative F'' needs a smoother fit, of degree 5 at most. The loss is an integral
+    // and tolerates a fit that follows the noise of the cells.
     const Series smooth = best_fit(normal_, std::min(highest_degree_, 5));
     result.force_curvature = smooth.second_slope_at_middle() / (amplitude_ * amplitude_);
     result.small_amplitude_work = std::visit(
@@ -241,14 +249,15 @@ class LossOfLevels {
                    [&](double t) { return modulus_ratio_ * series.slope(t) / amplitude_; });
   }
   double of_levels(double ForceSample::*stiffness, double factor) const {
-    const auto at = [&](const LevelValues& level) { return factor * (level.sample.*stiffness); };
+    const auto at = [&](const ContactValues& level) { return factor * (level.sample.*stiffness); };
     return loss(
-        motion_, intervals_.nodes, [&](std::size_t k) { return at(intervals_.values[k + 1]); },
-        drag_ ? at(intervals_.values.back()) : 0);
+        motion_, contacts_.nodes, [&](std::size_t k) { return at(contacts_.values[k + 1]); },
+        drag_ ? at(contacts_.values.back()) : 0);
   }
 
   void add_ratio(IntervalQuadratureResult& result) const {
-    // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
+    // Fits the stiffness ratio ρ = K_t/((G*/E*)K) by four coefficients at most, since ρ varies
+    // slowly and fast variations are noise of the cells.
     const Series ratio = best_fit(ratios_, std::min(3, static_cast<int>(ratios_.theta.size()) / 4));
     Eigen::VectorXd gradient(ratio.coefficients.size());
     for (Index l = 0; l < gradient.size(); ++l)
@@ -261,26 +270,26 @@ class LossOfLevels {
     result.error_estimate = 2 * statistical + normal_error(result.work_by_force);
   }
 
-  // Two more values of the integral: from the stiffness of the levels as they are, and from a fit
-  // of more freedom.
+  // Error of W from the normal stiffness. Compares W with its values from the unfitted stiffnesses
+  // K and from a fit of one degree more.
   double normal_error(double work_by_force) const {
     const double by_stiffness = of_levels(&ForceSample::normal_stiffness, modulus_ratio_);
     const int degree = static_cast<int>(force_.coefficients.size()) - 1;
-    // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how
-    // much it could differ.
+    // K, computed from whole cells, scatters about F'. W from these K may agree with W from the fit
+    // by chance; the scatter shows by how much the two could differ.
     const auto deviation = [&](std::size_t at) {
-      return modulus_ratio_ * (intervals_.values[at].sample.normal_stiffness -
-                               force_.slope(intervals_.theta[at]) / amplitude_);
+      return modulus_ratio_ * (contacts_.values[at].sample.normal_stiffness -
+                               force_.slope(contacts_.theta[at]) / amplitude_);
     };
     std::vector<double> deviations;
-    for (std::size_t k = 0; k < intervals_.nodes.size(); ++k) deviations.push_back(deviation(k + 1));
-    const double cells = scatter_of_loss(motion_, intervals_.nodes, deviations,
-                                         drag_ ? deviation(intervals_.nodes.size() + 1) : 0);
+    for (std::size_t k = 0; k < contacts_.nodes.size(); ++k) deviations.push_back(deviation(k + 1));
+    const double cells = scatter_of_loss(motion_, contacts_.nodes, deviations,
+                                         drag_ ? deviation(contacts_.nodes.size() + 1) : 0);
     return std::max({std::abs(by_stiffness - work_by_force),
                      std::abs(by_force(fit(normal_, degree + 1)) - work_by_force), 2 * cells});
   }
 
-  const SolvedLevels& intervals_;
+  const SolvedContacts& contacts_;
   const Oscillation& motion_;
   const bool drag_;
   const double amplitude_, modulus_ratio_;
@@ -292,17 +301,17 @@ class LossOfLevels {
 }  // namespace
 
 IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                       const Material& material, const Oscillation& motion,
-                                       double mean_indentation,
-                                       const IntervalQuadratureOptions& options) {
+                                             const Material& material, const Oscillation& motion,
+                                             double mean_indentation,
+                                             const IntervalQuadratureOptions& options) {
   grid.validate();
   validate(motion, mean_indentation, options);
   const bool drag = std::holds_alternative<Drag>(motion);
   const int count = options.intervals > 0 ? options.intervals : (drag ? 32 : 16);
   IntervalQuadratureResult result;
   result.termination = Termination::converged;
-  LevelSolver solver(intervals, grid, material, options, result);
-  SolvedLevels solved{gauss_nodes(count), {}, {}};
+  IntervalSolver solver(contact_sets, grid, material, options, result);
+  SolvedContacts solved{gauss_nodes(count), {}, {}};
   const auto solve = [&](double theta, bool with_stiffness) {
     solved.theta.push_back(theta);
     solved.values.push_back(
@@ -320,7 +329,7 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
   }
   solve(pi, drag);
 
-  LossOfLevels(solved, motion, material.modulus_ratio()).fill(result);
+  LossOfContacts(solved, motion, material.modulus_ratio()).fill(result);
   result.curve.model = "bem";
   result.curve.nominal_area = grid.area();
   for (auto level = solved.values.rbegin(); level != solved.values.rend(); ++level)

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/numerics/quadrature.hpp"
 #include "base/stop_check.hpp"
-#include "contact/quadrature.hpp"
 #include "joint_loop.hpp"
 #include "max_motion.hpp"
 #include "surface/refine.hpp"
@@ -42,15 +42,16 @@ void check_below_sliding(double force, double limit, const char* where) {
 
 [[noreturn]] void refuse_deep_slip(const ContactLaw& law) {
   if (!std::isfinite(law.lowest_indentation()))
-    throw InvalidInput("friction",
-                       "what still sticks is lost in the rounding of the tangential force; raise "
-                       "the friction or reduce the motion");
-  throw InvalidInput("friction",
-                     "slip reaches indentation levels below the range of the law; raise the "
-                     "friction, reduce the motion, or give a curve from lower forces on");
+    throw InvalidInput("friction_coefficient",
+                       "the part that still sticks is smaller than the rounding of the tangential "
+                       "force; raise the friction or reduce the motion");
+  throw InvalidInput("friction_coefficient",
+                     "slip reaches indentations below the range of the law; raise the friction, "
+                     "reduce the motion, or give a curve that begins at lower forces");
 }
 
-// Quadratures over the levels that slip, of depth 0 … c below δ = high.
+// Quadratures over the springs that slip. Their depths reach from the indentation `high` down to
+// high − depth, in the parametrisation high − depth · sin²(θ/2).
 class SlippingSprings {
  public:
   SlippingSprings(const ContactLaw& law, double high, double depth, double tolerance)
@@ -65,7 +66,7 @@ class SlippingSprings {
   double stiffness_at(double theta) const {
     return law_.tangential_stiffness(high_ - depth_ * std::pow(std::sin(0.5 * theta), 2));
   }
-  // ∫_0^π f(θ, K_t(δ(θ))) dθ.
+  // ∫_0^π f(θ, K_t) dθ with K_t at the indentation high − depth · sin²(θ/2).
   double integral(const std::function<double(double, double)>& f) {
     const detail::Integral found =
         detail::integrate([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
@@ -73,7 +74,8 @@ class SlippingSprings {
     converged_ = converged_ && found.converged;
     return found.value;
   }
-  // Allows integrals in which most of K_t cancels: what is small against ∫K_t need not be known.
+  // Allows an absolute error that is small against ∫K_t dθ, for integrands in which most of K_t
+  // cancels.
   void allow_cancelling() { absolute_ = 1e-15 * pi * stiffness_at(0); }
   bool converged() const { return converged_; }
 
@@ -84,13 +86,15 @@ class SlippingSprings {
   bool converged_ = true;
 };
 
-// The depth of slip c at which T is reached: (μ/g) ∫_0^c K_t(δ − u) du = T, g = K_t/K at δ.
+// The depth of slip c at which the tangential force reaches T: (μ/g) ∫_0^c K_t(δ − u) du = T, with
+// g = K_t/K at the indentation δ. high: δ, m; force: T, N.
 double depth_of_slip(const ContactLaw& law, double high, double force, double friction_coefficient,
                      double tolerance) {
   const double target = law.stiffness_ratio(high) * force / friction_coefficient;
   const double stiffness = law.tangential_stiffness(high);
-  require(stiffness > 0, "indentation", high, "is one at which nothing touches");
-  // The integral is concave in c: Newton's method from 0 rises to the root and never passes it.
+  require(stiffness > 0, "indentation", high, "m is an indentation without contact");
+  // The integral is a concave function of c. Newton's method from c = 0 therefore approaches the
+  // solution from below and never passes it.
   double depth = 0, reached = 0, end = stiffness;
   for (int iteration = 0; iteration < 200 && end > 1e-14 * stiffness; ++iteration) {
     const double step = (target - reached) / end;
@@ -98,8 +102,9 @@ double depth_of_slip(const ContactLaw& law, double high, double force, double fr
     const double next = depth + step;
     if (!(high - next >= law.lowest_indentation())) break;
     const std::vector<double> breaks = detail::sweep_breaks(law, high - next, high - depth);
-    reached += detail::integrate([&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
-                                 breaks, tolerance)
+    reached += detail::integrate(
+                   [&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
+                   breaks, tolerance)
                    .value;
     depth = next;
     end = law.tangential_stiffness(high - depth);
@@ -115,19 +120,23 @@ void set_ratios(JointLoss& loss) {
   loss.loss_stiffness = loss.work_per_cycle / (pi * x * x);
 }
 
-// One motion of a contact whose normal force oscillates.
+// Steady state of a joint under an oscillating normal force.
 struct Followed {
-  double force = 0, displacement = 0;  // half their ranges
+  // Half the range of the tangential force and of the displacement.
+  double force = 0, displacement = 0;
   double work = 0, slip_work = 0, storage_stiffness = 0;
   detail::JointLoop loop = {};
 };
 
-// A period from the least indentation on, whose last sample is the first again.
+// One period of the motion of a joint, from the smallest indentation on. The last sample repeats
+// the first.
 struct JointPath {
-  double lowest = 0, highest = 0;               // indentation
-  bool by_force = false;                        // or by displacement
-  double amplitude = 0;                         // of that
-  std::vector<double> spring_depth = {}, target = {};  // indentation, and that
+  double lowest = 0, highest = 0;  // smallest and largest indentation, m
+  // The tangential force is given; false: the displacement.
+  bool by_force = false;
+  double amplitude = 0;  // of the given quantity
+  // Indentation, and the given force or displacement.
+  std::vector<double> spring_depth = {}, target = {};
 };
 
 JointPath path_of(double mean, const JointMotion& motion, int steps) {
@@ -148,7 +157,8 @@ double half_range_of(const std::vector<double>& values) {
   return 0.5 * (high - low);
 }
 
-// Slope of the straight line through force over x, of a period whose last sample is the first.
+// Slope of the line of regression of the tangential force on the displacement x. The last sample of
+// the period repeats the first and is left out.
 double slope_of(const std::vector<double>& force, const std::vector<double>& x) {
   const std::size_t steps = x.size() - 1;
   double middle = 0;
@@ -162,16 +172,18 @@ double slope_of(const std::vector<double>& force, const std::vector<double>& x) 
   return product / square;
 }
 
-// first: the displacement at which all springs are free of stress, where it is given. What never
-// slips remembers it in the force, not in the loss.
+// Follows the motion until a period repeats. first: displacement at which all springs are free of
+// stress at the start. Springs that never slip stay anchored there; this shifts the force, and does
+// not change the loss.
 Followed follow(const ContactLaw& law, const JointPath& path, double friction_coefficient,
                 const Progress& on_progress, double first) {
   const auto& [lowest, highest, by_force, amplitude, spring_depth, target] = path;
   if (by_force)
     for (std::size_t i = 0; i < spring_depth.size(); ++i)
       check_below_sliding(std::abs(target[i]), friction_coefficient * law.force(spring_depth[i]),
-                          " in the course of the normal oscillation");
-  // By force, x is not known before: as far as all springs of the least contact could be stretched.
+                          " during the normal oscillation");
+  // With a given force the range of the displacement is unknown, so all springs may reach their
+  // stretch limit.
   const double range = by_force ? std::numeric_limits<double>::infinity() : 2 * amplitude;
   TangentialContact contact(
       law, lowest, highest,
@@ -188,7 +200,8 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       if (i % interval == interval - 1 && on_progress &&
           !on_progress(
               {"joint",
-               (period + static_cast<double>(i) / static_cast<double>(spring_depth.size())) / max_periods,
+               (period + static_cast<double>(i) / static_cast<double>(spring_depth.size())) /
+                   max_periods,
                period, 0}))
         throw Interrupted("joint: interrupted");
       if (by_force)
@@ -203,7 +216,8 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
     result.work = work;
     result.slip_work = contact.dissipated_in_permanent_contact() - slipped;
     if (steady && period > 0) {
-      // What is given need not have its greatest value at a step.
+      // The maximum of the given force or displacement may lie between two steps, so its amplitude
+      // is returned.
       result.force = by_force ? amplitude : half_range_of(force);
       result.displacement = by_force ? half_range_of(x) : amplitude;
       result.storage_stiffness = slope_of(force, x);
@@ -216,14 +230,14 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       "tangential force; reduce it, or give a displacement");
 }
 
-// Contacts of a surface, none of which may fail.
+// Returns the state of a contact; throws if its solve was interrupted or did not converge.
 NormalContactState solved(NormalContactState state) {
   if (state.termination == Termination::interrupted) throw Interrupted("joint: interrupted");
   if (!state.converged()) throw NotConverged("joint: a contact of the surface did not converge");
   return state;
 }
 
-// One load in full stick.
+// Force curve with one load, with its tangential stiffness in full stick.
 ForceCurve stuck_at(double pressure, const Surface& surface, const Material& material,
                     const Progress& on_progress) {
   SweepOptions sweep;
@@ -236,7 +250,7 @@ ForceCurve stuck_at(double pressure, const Surface& surface, const Material& mat
   return curve;
 }
 
-// The loss of a normal oscillation about the indentation under a pressure.
+// Loss without slip under a normal oscillation about the indentation at a pressure.
 SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, const Surface& surface,
                              const Material& material, const Progress& on_progress) {
   const ForceCurve curve = stuck_at(pressure, surface, material, on_progress);
@@ -247,7 +261,7 @@ SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, cons
   return damping;
 }
 
-// A quantity over the steps of a simulated cycle, of which the last is the first of the next.
+// Values of one quantity at the steps of a simulated cycle, as deviations from their mean.
 struct Swing {
   Swing(const CycleResult& cycle, double CycleSample::*quantity)
       : values(static_cast<Index>(cycle.samples.size()) - 1) {
@@ -268,7 +282,8 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   check(motion, friction_coefficient);
   const double high = indentation_of(law, point);
   detail::require_possible(law, high, 0, [&](double) { return high; });
-  const double limit = friction_coefficient / law.stiffness_ratio(high);  // stretch over depth
+  // Stretch limit of a spring divided by its depth.
+  const double limit = friction_coefficient / law.stiffness_ratio(high);
   const auto* by_force = std::get_if<TangentialForce>(&motion);
   const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
                                                 friction_coefficient, options.tolerance)
@@ -283,10 +298,10 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   loss.storage_stiffness = 2 / pi * springs.integral([](double theta, double k) {
     return k * std::pow(std::sin(theta), 2);
   });
-  // Stiffness over that of the deepest level that slips: what is the same all over loses nothing.
+  // Subtracts K_t at the depth of slip from the integrand, because a constant K_t has no loss.
   const double deepest = springs.stiffness_at(pi);
-  // Below this part of K_t so little is left that sticks that T is μF to round-off, and the loss
-  // grows at a constant force.
+  // If the springs that still stick have less than this fraction of K_t, the tangential force
+  // equals μF to round-off, and the loss grows with the displacement at constant force.
   constexpr double nothing_left = 1e-9;
   springs.allow_cancelling();
   loss.slip_work = loss.work_per_cycle = x * x * springs.integral([&](double theta, double k) {
@@ -316,7 +331,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   const double area = surface.grid.area();
   NormalContactOptions contact;
   contact.on_progress = on_progress;
-  // c is the difference of two indentations, of which it may be a hundredth.
+  // The depth of slip is the difference of two indentations and may be a hundredth of them, so the
+  // contacts need this tolerance.
   contact.tolerance = 1e-10;
   const auto under = [&](double force) {
     return solved(press(fine, material.contact_modulus, at_pressure(force / area), contact));
@@ -326,7 +342,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   };
   const double spring_depth = losses.front().indentation;
   const NormalContactState high = under(law.force(spring_depth));
-  // K_t/K hardly changes where a joint slips. The law interpolates both stiffnesses.
+  // Uses K_t/K of one solved contact for all motions: the ratio hardly changes over the depth of
+  // slip. The law would only interpolate K and K_t between loads.
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
@@ -385,8 +402,9 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
   loss.slip_work = one.slip_work;
   loss.relaxation_work = one.work - one.slip_work;
   loss.storage_stiffness = one.storage_stiffness;
-  // A force that does not follow a hundredth of the motion to a ten-thousandth is that of sliding,
-  // to the accuracy of the steps.
+  // The exponent of the loss follows from a second motion that is 1 % smaller. If the force differs
+  // by less than 1e-6, the contact slides within the accuracy of the steps, and the exponent is
+  // unknown.
   if (const double change = std::log(one.force / less.force); change > 1e-6)
     loss.exponent = std::log(one.work / less.work) / change;
   loss.converged = true;
@@ -410,12 +428,13 @@ JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D&
   const bool by_force = std::holds_alternative<TangentialForce>(motion.tangential);
   const double amplitude =
       std::visit([](const auto& one) { return one.amplitude; }, motion.tangential);
-  // A constant normal force has no phase, and the steps then meet the turning points of the motion.
+  // Without a normal oscillation the phase has no effect; it is set to 0, so that the turning
+  // points of the tangential motion coincide with steps.
   Trajectory path = trajectory_of(EqualFrequency{motion.normal_amplitude, amplitude,
                                                  motion.normal_amplitude > 0 ? motion.phase : 0},
                                   indentation);
   if (by_force) std::swap(path.tangential, path.tangential_force);
-  const CycleResult cycle = simulate_frictional_cycle(springs, grid, material, path, options);
+  const CycleResult cycle = simulate_frictional_cycle(contact_sets, grid, material, path, options);
 
   JointLoss loss;
   loss.indentation = indentation;

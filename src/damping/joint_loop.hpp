@@ -6,13 +6,14 @@
 
 namespace salebra::detail {
 
-/// One period of the steady motion of a joint, whose last sample is the first again.
+/// One period of the steady motion of a joint; the last sample repeats the first.
 struct JointLoop {
   std::vector<double> displacement, tangential_force;  // m, N
 };
 
-/// The loop whose half ranges and loss joint_loss() returns, from the middle of the displacement or
-/// from a force of zero on. Arguments and exceptions are those of joint_loss().
+/// The loop of displacement and force that belongs to the half ranges and the loss of joint_loss().
+/// It begins in the middle of the displacement or, if the force is given, at a force of zero.
+/// Arguments and exceptions are those of joint_loss().
 JointLoop joint_loop(const ContactLaw& law, double indentation, const JointMotion& motion,
                      double friction_coefficient, int steps, const Progress& on_progress);
 

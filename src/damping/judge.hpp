@@ -6,14 +6,16 @@
 
 namespace salebra::detail {
 
-/// The verdict on a value by the two limits beside it; a value that is not known leaves it as it is.
+/// Sets the verdict from the value and the limits for 5 % and 20 % of the assumption. An unknown
+/// value leaves the verdict as it is. large_is_good: the assumption holds above its limits, not
+/// below.
 inline void judge(Assumption& assumption, bool large_is_good = false) {
   const double value = assumption.value;
   if (std::isnan(value)) return;
   const auto beyond = [&](double limit) { return large_is_good ? value < limit : value > limit; };
   assumption.verdict = beyond(assumption.limit_20_percent)  ? Verdict::broken
-                    : beyond(assumption.limit_5_percent) ? Verdict::doubtful
-                                                      : Verdict::holds;
+                       : beyond(assumption.limit_5_percent) ? Verdict::doubtful
+                                                            : Verdict::holds;
 }
 
 }  // namespace salebra::detail

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 
-#include "surface/dense_systems.hpp"
+#include "base/numerics/dense_systems.hpp"
 
 namespace salebra::detail {
 
@@ -20,16 +20,19 @@ namespace {
 
 using std::numbers::pi;
 
-// Variance of the number of lattice points inside a smooth curve at a random place, for each unit
-// of its length: Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19 (1948)
-// 1, for ovals).
+// Variance of the number of lattice points inside a smooth closed curve at a random position on a
+// square lattice, per unit length of the curve: Σ|k|⁻³/(4π³) over the reciprocal lattice vectors k
+// (D. G. Kendall, Quart. J. Math. 19 (1948) 1, for ovals).
 constexpr double lattice_variance = 0.0728;
 constexpr Index trend_terms = 3;
 constexpr double prior_width = 1.5;
 
-/// The interval of decreasing places in which one lies, and its share of the way through it.
+/// `positions` are decreasing indentations. Returns the index of the interval between two of them
+/// that contains `indentation`, and the distance from the upper end of this interval as a fraction
+/// of it.
 std::pair<Index, double> interval_of(const VectorXd& positions, double indentation) {
-  const auto after = std::upper_bound(positions.begin(), positions.end(), indentation, std::greater());
+  const auto after =
+      std::upper_bound(positions.begin(), positions.end(), indentation, std::greater());
   const Index i = std::clamp<Index>(after - positions.begin() - 1, 0, positions.size() - 2);
   const double share = (indentation - positions(i)) / (positions(i + 1) - positions(i));
   return {i, std::clamp(share, 0.0, 1.0)};
@@ -77,7 +80,8 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
   predict(samples[samples.size() / 2]);
 }
 
-KrigedStiffness::Observations KrigedStiffness::observations_of(const std::vector<StiffnessSample>& samples) const {
+KrigedStiffness::Observations KrigedStiffness::observations_of(
+    const std::vector<StiffnessSample>& samples) const {
   const auto count = static_cast<Index>(samples.size());
   const Index size = positions_.size(), data = 2 * count - 1;
   Observations observations{MatrixXd::Zero(data, size), VectorXd(data), VectorXd(size)};
@@ -97,7 +101,8 @@ KrigedStiffness::Observations KrigedStiffness::observations_of(const std::vector
       const double width = (positions_(i) - positions_(i + 1)) / half_;
       observations.operators(k - 1, i) += width / 2;
       observations.operators(k - 1, i + 1) += width / 2;
-      const double share = (positions_(begin) - positions_(i + 1)) / (positions_(begin) - positions_(at));
+      const double share =
+          (positions_(begin) - positions_(i + 1)) / (positions_(begin) - positions_(at));
       observations.entered(i + 1) = above.cells + share * (sample.cells - above.cells);
     }
     observations.values(k - 1) = (above.force - sample.force) / half_;
@@ -115,8 +120,9 @@ void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& sample
     perimeter += sample.perimeter / static_cast<double>(samples.size());
     together += sample.together / static_cast<double>(samples.size());
   }
-  // K and the cells that enter over half the range. Few of them say little, and count with one
-  // group of an exponential law, whose area is in proportion to its force.
+  // Increases of K and of the number of cells over half the range of indentations. Few entered
+  // cells would give uncertain values, so these are averaged with the increases by an exponential
+  // law (area proportional to force), which count as one group of cells.
   const double strain = middle.force > 0 ? half_ * middle.stiffness / middle.force : 0;
   const double law = strain * middle.stiffness, of_law = strain * middle.cells;
   const double rise = (high.stiffness - low.stiffness) / 2;
@@ -130,7 +136,7 @@ void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& sample
     const double apart = std::abs(x(i) - x(k));
     return apart > 0 ? of_spots * apart * apart * std::log(apart) : 0.0;
   });
-  // A group that did not enter by chance may as well have done so.
+  // Counts one group of cells more, so that its noise is allowed for even if no cell entered.
   const VectorXd entered = observations.entered + group * x;
   const MatrixXd cells = MatrixXd::NullaryExpr(size, size, [&](Index i, Index k) {
     return together * step * step * variance *
@@ -143,8 +149,8 @@ void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& sample
 
 void KrigedStiffness::find_contrasts(const MatrixXd& trend) {
   fit_ = pseudo_inverse(trend);
-  // `free` are combinations of the samples that no parabola changes, and `contrasts_` those among
-  // them that diagonalise both covariances.
+  // `free` spans the linear combinations of sample values that are 0 for every parabola. contrasts_
+  // spans the same space, and makes the covariances by cells and by contact patches both diagonal.
   const MatrixXd free =
       symmetric_modes(trend * trend.transpose()).vectors.leftCols(trend.rows() - trend_terms);
   const Modes noise = symmetric_modes(free.transpose() * of_cells_ * free);

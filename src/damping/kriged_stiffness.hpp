@@ -7,96 +7,107 @@
 
 namespace salebra::detail {
 
-/// A contact that was solved, as far as the stiffness between contacts depends on it.
+/// A solved contact, with the quantities that the prediction of the stiffness between contacts
+/// uses.
 struct StiffnessSample {
   double indentation = 0;       // δ, m
   double force = 0;             // F, N
-  double stiffness = 0;         // K of its cells, N/m
-  double cells = 0, spots = 0;  // that touch
-  double perimeter = 0;         // of the contact, in widths of a cell
-  double together = 1;          // cells that enter at a time, of a straight part of the perimeter
-  double force_correction = 0;  // its size, N: the solver's error is smaller
+  double stiffness = 0;         // K of the cells in contact, N/m
+  double cells = 0, spots = 0;  // numbers of cells and of contact patches in contact
+  double perimeter = 0;         // of the contact, in cell widths
+  double together = 1;          // cells that enter at a time along a straight part of the perimeter
+  // Absolute correction of the force, N, an upper bound of the solver's error.
+  double force_correction = 0;
 };
 
-/// Over what is predicted, the variances of K by spots and by cells: the logarithm of a
-/// probability, over the logarithms of both.
+/// Factors by which the actual variances of K exceed the predicted ones: one factor for the
+/// variance by contact patches and one for that by cells. Holds a table of the log probabilities of
+/// both factors on a logarithmic grid.
 class VarianceScales {
  public:
-  /// As predicted within a factor of e^{±1.5}.
+  /// Prior distribution: the logarithm of each factor is normal, with mean 0 and deviation 1.5.
   VarianceScales();
-  /// The factors of spots (rows) and cells (columns) in the table.
+  /// Values of the factor for patches (rows of the table) and for cells (columns).
   static Eigen::ArrayXd of_spots(), of_cells();
 
   void add(const Eigen::ArrayXXd& log_likelihood) { log_probability_ += log_likelihood; }
   Eigen::ArrayXXd probability() const;
-  /// Row and column of the most probable.
+  /// Row and column of the table at which the probability is largest.
   std::pair<Index, Index> best() const;
 
  private:
   Eigen::ArrayXXd log_probability_;
 };
 
-/// K(δ) of the surface between contacts on a grid: universal kriging (best linear unbiased
-/// prediction; G. Matheron, Adv. Appl. Probab. 5 (1973) 439) from K of the contacts and their
-/// differences of F, the means of K in between.
+/// Predicts K(δ) of the surface between contacts solved on a grid by universal kriging (best linear
+/// unbiased prediction; G. Matheron, Adv. Appl. Probab. 5 (1973) 439). The data are K of the
+/// contacts and the differences of F between contacts, each of which is the mean of K over an
+/// interval.
 ///
-/// The K that is sought is a parabola of any size and a random function. With n spots of an
-/// exponential law, of which each has F'' ∝ (δ − δᵢ)^{−1/2} after it touched, the relative
-/// covariance of F'' is K₀(τ/2l)/(πn) (modified Bessel function, l = F/K), or −ln τ/(πn) but for
-/// what the parabola takes up. Its double integral is the generalised covariance of K, F''² τ² ln
-/// τ/(2πn).
+/// K is modelled as a parabola with free coefficients plus a random function with two independent
+/// parts, by contact patches and by cells. Patches: for n contact patches of an exponential law,
+/// each with F'' ∝ (δ − δᵢ)^{−1/2} after its first touch at δᵢ, the relative covariance of F'' at
+/// two indentations a distance τ apart is K₀(τ/2l)/(πn) (modified Bessel function K₀, l = F/K),
+/// which is −ln τ/(πn) except for terms that the parabola absorbs. Its double integral is the
+/// generalised covariance of K, F''² τ² ln τ/(2πn).
 ///
-/// The grid adds its scatter: cells enter at chance indentations, and each raises K by the same
-/// step. A number N of them has the variance N as long as N is small, and no more than 2 × 0.0728
-/// times the perimeter where the perimeter moves by more than a fifth of a cell, that of lattice
-/// points inside a smooth curve at a random place: a random walk that is pulled back, with the
-/// covariance v exp(−N/2v), v = 0.0728 × perimeter. Ridges along the grid enter row by row, and the
-/// variance is greater by the number of cells that do so together.
+/// Cells: the grid adds scatter, because cells enter at random indentations, and each raises K by
+/// the same step. The variance of the number N of entered cells is N for small N. It never exceeds
+/// 2 × 0.0728 times the perimeter, where 0.0728 × perimeter is the variance of the number of
+/// lattice points inside a smooth curve at a random position; this limit holds once the perimeter
+/// has moved by more than a fifth of a cell. N is therefore modelled as a random walk with a
+/// restoring force, with the covariance v exp(−|ΔN|/2v), v = 0.0728 × perimeter. Ridges along the
+/// grid enter row by row, which multiplies the variance by the number of cells that enter together.
 ///
-/// Both variances are known as far as the contacts show them: those of one smooth spot are smaller,
-/// those of cells that enter row by row larger. The likelihood of the contacts weighs both.
+/// The factors of both variances (VarianceScales) follow from the likelihood of the data: patches
+/// that all have one smooth shape have a smaller variance than predicted, cells that enter row by
+/// row a larger one.
 class KrigedStiffness {
  public:
-  /// samples  from the highest indentation to the lowest, at least three
-  /// places   indentations at which K is given, decreasing, with those of the samples among them
+  /// samples    solved contacts from the highest indentation to the lowest, at least three
+  /// positions  decreasing indentations at which K is predicted; they include those of the samples
   KrigedStiffness(const std::vector<StiffnessSample>& samples, Eigen::VectorXd positions);
 
-  /// What VarianceScales::add() takes.
+  /// Log likelihood of the samples for each pair of factors, as VarianceScales::add() takes it.
   const Eigen::ArrayXXd& log_likelihood() const { return log_likelihood_; }
 
-  double stiffness(double indentation) const;  // linear between places, as all that follows
+  // K, N/m; linear between the positions, as are the functions below.
+  double stiffness(double indentation) const;
   double force(double indentation) const;
-  /// Σ weights × K(places) is K at the indentation.
+  /// Returns the weights for which Σ weights × K(positions) is K at the indentation.
   Eigen::VectorXd weights_at(double indentation) const;
 
-  /// Mean and standard deviation of Σ weights × K(places).
+  /// Mean and standard deviation of a weighted sum Σ weights × K(positions), for example of W.
   struct Estimate {
     double value, deviation;
   };
   Estimate estimate(const Eigen::VectorXd& weights, const VarianceScales& scales) const;
-  /// Largest change of it where each force is off by its correction at the most.
+  /// Largest change of the weighted sum if each sample's force is wrong by at most its correction.
   double solver_error(const Eigen::VectorXd& weights) const;
 
  private:
-  /// What the samples say of K at the places, all in the units of K: F differs by the mean of K.
+  /// What the samples say about K at the positions, in units of K: values ≈ operators ×
+  /// K(positions). A difference of two forces, divided by their distance, is a mean of K.
   struct Observations {
     Eigen::MatrixXd operators;
     Eigen::VectorXd values;
-    Eigen::VectorXd entered;  // cells that touch, at the places
+    Eigen::VectorXd entered;  // cells in contact, at the positions
   };
   Observations observations_of(const std::vector<StiffnessSample>& samples) const;
-  // The steps of the constructor, in their order. x: places, from −1 to 1.
+  // The following functions are the steps of the constructor, in order. x: positions, scaled to the
+  // range from −1 to 1.
   void set_covariances(const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& x,
                        const Observations& observations);
-  void find_contrasts(const Eigen::MatrixXd& trend);  // powers at the samples
+  void find_contrasts(const Eigen::MatrixXd& trend);  // trend: powers of x, as the samples see them
   void find_scales();
   void predict(const StiffnessSample& middle);
 
-  /// What an estimate is made of, in the coordinates in which both covariances are diagonal.
+  /// The terms of an estimate. by_spots and by_cells are in coordinates in which both covariances,
+  /// by patches and by cells, are diagonal.
   struct Parts {
-    Eigen::VectorXd trend;  // weights of the samples that keep the parabola
+    Eigen::VectorXd trend;  // weights of the samples that are exact for every parabola
     Eigen::VectorXd by_spots, by_cells;
-    double spots, cells;  // variances of the trend
+    double spots, cells;  // variances of the part of the estimate that the parabola gives
   };
   Parts parts(const Eigen::VectorXd& weights) const;
   Eigen::VectorXd sample_weights(const Parts& parts, double of_spots, double of_cells) const;
@@ -104,14 +115,16 @@ class KrigedStiffness {
   double bend_, half_;
   double best_of_spots_, best_of_cells_;
   Eigen::VectorXd positions_, stiffness_, force_, values_;
-  Eigen::VectorXd corrections_;          // of the forces of the samples
-  Eigen::MatrixXd trend_;                // powers at the places
-  Eigen::MatrixXd fit_;                  // coefficients of the parabola from the samples
-  Eigen::MatrixXd spots_;                // covariance between places
-  Eigen::MatrixXd spots_to_samples_;     // … of samples and places
-  Eigen::MatrixXd of_spots_, of_cells_;  // … of samples
-  Eigen::MatrixXd contrasts_;       // of the samples: covariance of cells 1, of spots `ratios_`
-  Eigen::VectorXd ratios_, found_;  // found_: contrasts of the values
+  Eigen::VectorXd corrections_;  // corrections of the sample forces
+  Eigen::MatrixXd trend_;        // powers of x at the positions
+  // Maps the data of the samples to the coefficients of the parabola.
+  Eigen::MatrixXd fit_;
+  Eigen::MatrixXd spots_;                // covariance by patches between positions
+  Eigen::MatrixXd spots_to_samples_;     // covariance by patches between samples and positions
+  Eigen::MatrixXd of_spots_, of_cells_;  // covariances between samples, by patches and by cells
+  // Combinations of samples with the variances 1 by cells and ratios_ by patches.
+  Eigen::MatrixXd contrasts_;
+  Eigen::VectorXd ratios_, found_;  // found_: contrasts_ applied to the data of the samples
   Eigen::ArrayXXd log_likelihood_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damping constants of a loss, and when it is not known.
+// Damping constants of a loss, and the rules by which a loss is unknown.
 #include <cmath>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/loss.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The largest normal oscillation that the law of a contact can describe.
+// Largest normal oscillation that a contact law can describe.
 #include "max_motion.hpp"
 
 #include <fmt/format.h>
@@ -20,8 +20,9 @@ std::string in_words(double value, Dimension dimension) {
   return format_quantity(value, dimension, 3);
 }
 
-// F/K of a law that is exponential from a place on, F F'' = K²; NaN of another one. A law may be
-// wrapped, hence its numbers are asked and not its type.
+// Decay length F/K of a law that is exponential for all indentations above `position`, where F F''
+// = K²; NaN for other laws. It tests numbers and not the class, because a law may be wrapped in
+// another.
 double decay_length_of(const ContactLaw& law, double position) {
   if (std::isfinite(law.lowest_indentation())) return unknown;
   const auto is_exponential = [&](double at) {
@@ -37,7 +38,8 @@ double mean_pressure(const IndenterLaw& law, double indentation) {
   return law.force(indentation) / (std::numbers::pi * radius * radius);
 }
 
-// A cone has its mean pressure at every load, whatever it is.
+// Returns whether the mean pressure at the indentation exceeds E*. The mean pressure of a cone is
+// the same at every load, so a cone always returns false.
 bool is_above_modulus(const IndenterLaw& law, double indentation) {
   if (!(indentation > 0)) return false;
   const double pressure = mean_pressure(law, indentation);
@@ -45,9 +47,9 @@ bool is_above_modulus(const IndenterLaw& law, double indentation) {
          pressure > 1.001 * mean_pressure(law, 0.5 * indentation);
 }
 
-// The largest number up to `asked` at which nothing is beyond its limit, as nothing is at `possible`.
-double max_possible(double possible, double asked,
-                        const std::function<bool(double)>& is_beyond) {
+// Largest number between `possible` and `asked` for which is_beyond() is false, by bisection.
+// is_beyond(possible) must be false and is_beyond(asked) true.
+double max_possible(double possible, double asked, const std::function<bool(double)>& is_beyond) {
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = 0.5 * (possible + asked);
     (is_beyond(middle) ? asked : possible) = middle;
@@ -60,26 +62,29 @@ void require_possible(const IndenterLaw& law, double rest, double amplitude,
   const auto is_beyond = [&](double one) { return is_above_modulus(law, middle_at(one) + one); };
   if (!is_beyond(amplitude)) return;
   const std::string beyond = fmt::format(
-      "m presses the contact to a mean of {}, above the contact modulus of {}, which "
-      "no elastic contact reaches; ",
+      "m raises the mean contact pressure to {}, above the contact modulus of {}, which no elastic "
+      "contact reaches; ",
       in_words(mean_pressure(law, middle_at(amplitude) + amplitude), Dimension::pressure),
       in_words(law.contact_modulus(), Dimension::pressure));
   require(!is_above_modulus(law, rest), "indentation", rest, beyond + "reduce the load");
   const double possible = max_possible(0, amplitude, is_beyond);
-  require(false, "normal_amplitude", amplitude,
-          beyond + fmt::format("at most {} here", in_words(possible, Dimension::length)));
+  require(
+      false, "normal_amplitude", amplitude,
+      beyond + fmt::format("at most {} is possible here", in_words(possible, Dimension::length)));
 }
 
-// rest: where the exponential law bears the force of which it holds max_force_ratio times.
+// Throws if the exponential law with the decay length `length` exceeds max_force_ratio times its
+// force at the indentation `rest`. remedy: text that the error message
+// inserts between its proposals.
 void require_possible_exponential(double length, double rest, double mean, double amplitude,
                                   const char* remedy) {
   const double most = possible_amplitude(length) + (rest - mean);
   require(amplitude <= most, "normal_amplitude", amplitude,
-          fmt::format("m takes the force to {:.2g} times that at rest, and an exponential law "
-                      "holds up to {:g} times; at most {} here; {}give a `curve` that "
-                      "covers the motion",
-                      std::exp((mean + amplitude - rest) / length), max_force_ratio,
-                      in_words(most, Dimension::length), remedy));
+          fmt::format(
+              "m raises the force to {:.2g} times the force at rest, but an exponential law holds "
+              "up to {:g} times; use at most {},{} or give a `curve` that covers the motion",
+              std::exp((mean + amplitude - rest) / length), max_force_ratio,
+              in_words(most, Dimension::length), remedy));
 }
 
 }  // namespace
@@ -98,7 +103,7 @@ void require_possible(const ContactLaw& law, double rest, double amplitude,
   if (hold == Hold::force) return;
   if (const double length = decay_length_of(law, rest); std::isfinite(length))
     require_possible_exponential(length, rest, rest, amplitude,
-                                 hold ? "hold the mean force, or " : "");
+                                 hold ? " hold the mean force," : "");
 }
 
 void require_possible(const ContactLaw& law, double mean_indentation, double amplitude) {
@@ -107,32 +112,32 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
                             [&](double) { return mean_indentation; });
   const double rest = std::max(mean_indentation, 0.0);
   double length = decay_length_of(law, rest);
-  // The force at a far higher one may be no number.
+  // The test at indentation 0 avoids a force that overflows at a much higher indentation.
   if (std::isnan(length)) length = decay_length_of(law, 0);
   if (std::isfinite(length))
     require_possible_exponential(length, rest, mean_indentation, amplitude, "");
 }
 
 std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
-                                                     std::span<const DampingResult> results) {
+                                                       std::span<const DampingResult> results) {
   constexpr double max_ratio = 2;
   if (hold == Hold::force) return {};
   double worst = max_ratio;
   std::optional<std::string> warning;
   for (const DampingResult& one : results) {
-    // Infinite where the contact is open at rest; NaN where it never touches.
+    // mean_force/force is infinite if the contact is open without oscillation, and NaN if it never
+    // touches.
     const double ratio = one.mean_force / one.force;
     if (!(ratio > worst)) continue;
     worst = ratio;
     warning = fmt::format(
-        "the oscillation about a mean indentation that is held makes the mean force {}, not {}{}; "
-        "a "
-        "machine that is preloaded holds the mean force{}",
+        "holding the mean indentation raises the mean force to {} from {}{}; a preloaded machine "
+        "holds the mean force{}",
         in_words(one.mean_force, Dimension::force), in_words(one.force, Dimension::force),
-        std::isfinite(ratio) ? fmt::format(", {:.3g} times that", ratio) : "",
+        std::isfinite(ratio) ? fmt::format(", {:.3g} times as much", ratio) : "",
         hold ? " (`hold` force)" : "");
   }
-  return doubt;
+  return warning;
 }
 
 double possible_indentation(const ContactLaw& law, double rest, double asked) {

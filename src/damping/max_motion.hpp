@@ -12,45 +12,52 @@
 
 namespace salebra::detail {
 
-/// An exponential law is one of a rough surface between some first cells in contact, at about
-/// 10⁻⁴ E*h', and full contact, at about E*h'. No force can be more times that at rest.
+/// Largest force of an exponential law divided by its force without oscillation. The law describes
+/// a rough surface with the rms slope h' from the first cells in contact, at a pressure of about
+/// 10⁻⁴ E*h', to full contact, at about E*h'.
 constexpr double max_force_ratio = 1e4;
 
-/// The largest amplitude of an exponential law with this decay length, the mean indentation held.
+/// The largest normal amplitude, m, that an exponential law with this decay length allows while the
+/// mean indentation is held.
 double possible_amplitude(double decay_length);
-/// The same of any law about a contact at rest; infinity: the law itself names none.
+/// The largest normal amplitude, m, that any law allows about the indentation `rest` while the mean
+/// indentation is held; infinity if the law sets no limit.
 double possible_amplitude(const ContactLaw& law, double rest);
 
-/// Throws InvalidInput, with the amplitude that is possible, where an oscillation takes a contact
-/// that rests at `rest` to pressures that no elastic contact has: an indenter to a mean pressure
-/// above E*, an exponential law to max_force_ratio times its force. A table has an end of its own.
-/// middle_at   mean indentation under an amplitude
-/// hold        what stays under an amplitude: under a held force an exponential law has no limit;
-///             without a value the caller has no choice
+/// Throws InvalidInput, and names the largest possible amplitude, if an oscillation about a contact
+/// that rests at the indentation `rest` reaches pressures that no elastic contact has: for an
+/// indenter a mean pressure above E*, for an exponential law a force above max_force_ratio times
+/// the force at `rest`. A table cannot reach them, since its range ends earlier.
+/// middle_at   returns the mean indentation for an amplitude
+/// hold        what the user holds; an exponential law has no limit if the mean force is held.
+///             Empty: the user cannot choose, and the message does not propose to hold the force
 void require_possible(const ContactLaw& law, double rest, double amplitude,
                       const std::function<double(double)>& middle_at,
                       std::optional<Hold> hold = {});
 
-/// The same of a mean indentation at which the contact need not rest, because a mean force may be
-/// held there. An exponential law then rests at 0, where it counts its indentation from, or higher.
-/// A power law has no modulus, and with it no scale of its pressure: it has no limit.
+/// The same check for a mean indentation that need not be the indentation at rest, because the mean
+/// force may be held. An exponential law is then assumed to rest at 0, the origin of its
+/// indentation, or higher. A power law has no limit, because it has no modulus with which to
+/// compare its pressure.
 void require_possible(const ContactLaw& law, double mean_indentation, double amplitude);
 
-/// The highest indentation up to `asked` to which a contact that rests at `rest` can be pressed.
+/// The highest indentation, up to `asked`, to which require_possible() lets a contact that rests at
+/// `rest` be pressed.
 double possible_indentation(const ContactLaw& law, double rest, double asked);
 
-/// A sentence for the worst of these oscillations, if what was held is the mean indentation and the
-/// mean force then is more than twice that at rest: a machine that is preloaded holds the force.
-/// Only `force` and `mean_force` are looked at. hold: as above.
+/// Returns a warning if the mean indentation is held and the mean force of a result exceeds twice
+/// the force without oscillation; a preloaded machine would hold the force. The warning describes
+/// the result with the largest ratio. Reads only `force` and `mean_force` of the results. hold:
+/// what is held, if the user has a choice.
 std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
-                                                     std::span<const DampingResult> results);
+                                                       std::span<const DampingResult> results);
 
-/// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that
-/// holds its mean force, or is searched over amplitudes.
+/// As relaxation_damping(), but for a mean indentation that is not the indentation at rest, because
+/// the mean force is held or the amplitude is searched.
 DampingResult damping_about(const ContactLaw& law, double mean_indentation, const Motion& motion,
                             double tolerance);
 
-/// As steady_sliding(), of such a mean indentation.
+/// As steady_sliding(), but for a mean indentation that is not the indentation at rest.
 std::vector<SteadySliding> steady_sliding_about(const ContactLaw& law, double mean_indentation,
                                                 const NormalOscillation& normal,
                                                 std::span<const double> velocities,

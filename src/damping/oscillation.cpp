@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-// δ = mean − u_z cos θ and x = tangential(θ) for θ = π + ω_z t: the first and last sample are
-// minima of δ.
+// Samples δ = mean − u_z cos(ω_z t) and x = tangential(θ) with θ = ω_z t − π, over a number of
+// normal cycles. The first and the last sample are minima of δ.
 SampledMotion sample_cycles(double mean, double amplitude, double angular_frequency, int cycles,
                             int steps, const std::function<double(double)>& tangential) {
   require(steps >= 3, "steps", steps, "must be >= 3");
@@ -22,7 +22,7 @@ SampledMotion sample_cycles(double mean, double amplitude, double angular_freque
   for (int i = 0; i <= count; ++i) {
     const double angle = 2 * pi * i / steps;
     path.time.push_back(angle / angular_frequency);
-    // By the position in the cycle, so that each cycle returns to the same bits.
+    // Uses the index within the cycle, so that δ of each cycle is the same to the last bit.
     path.indentation.push_back(mean - amplitude * std::cos(2 * pi * (i % steps) / steps));
     path.displacement.push_back(tangential(angle - pi));
   }
@@ -53,21 +53,21 @@ CommonPeriod common_period(const TwoFrequencies& motion, int max_cycles) {
 }
 
 void SampledMotion::validate() const {
-  require(time.size() >= 3, "trajectory", time.size(), "samples are too few; give at least 3");
+  require(time.size() >= 3, "trajectory", time.size(), "samples given; give at least 3");
   require(indentation.size() == time.size() && displacement.size() == time.size(), "trajectory",
-          time.size(), "times must come with as many indentations and displacements");
+          time.size(), "times need the same number of indentations and displacements");
   for (std::size_t i = 0; i < time.size(); ++i) {
     require(
         std::isfinite(time[i]) && std::isfinite(indentation[i]) && std::isfinite(displacement[i]),
         "trajectory", i, "is the index of a sample that is not finite");
     require(i == 0 || time[i] > time[i - 1], "trajectory", i,
-            "is the index of a time that is not later than the one before");
+            "is the index of a time that is not later than the time before");
   }
   const auto [low, high] = std::ranges::minmax(indentation);
   const double gap = indentation.back() - indentation.front();
   require(std::abs(gap) <= 1e-9 * (high - low), "trajectory", gap,
-          "m is how far the last indentation is from the first; give one whole period, both ends "
-          "included");
+          "m is the difference between the last and the first indentation; give one whole period, "
+          "both ends included");
 }
 
 SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps) {

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Fine nodes: the functional of smooth functions, to round-off.
+// With this many nodes the loss of a smooth function is exact to round-off.
 constexpr int fine_nodes = 96;
 
 }  // namespace
@@ -24,7 +24,7 @@ std::vector<Node> gauss_nodes(int count) {
     stop_if_asked();
     double x = std::cos(pi * (k - 0.25) / (count + 0.5)), slope = 1;
     for (int iteration = 0; iteration < 8; ++iteration) {
-      double previous = 1, value = x;  // P_0, P_1
+      double previous = 1, value = x;  // Legendre polynomials P_0(x), P_1(x)
       for (int l = 2; l <= count; ++l) {
         const double next = ((2 * l - 1) * x * value - (l - 1) * previous) / l;
         previous = value;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motion of a slider on a spring over an oscillating contact: full and averaged equation, what they
-// end in, stability of sliding.
+// Motion of a slider that a spring pulls over an oscillating contact: integration of the full and
+// of the averaged equation of motion, the motion in the end, stability of sliding.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "averaged_slider.hpp"
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "max_motion.hpp"
 #include "slider_equation.hpp"
 
@@ -55,15 +55,16 @@ void check(const NormalOscillation& normal, const Slider& slider, double frictio
           format_quantity(normal.angular_frequency, Dimension::angular_frequency),
           "must be above 4 times √(k/m) of the slider, " +
               format_quantity(slow, Dimension::angular_frequency) +
-              "; a slower oscillation does not average");
+              "; the averages need a faster oscillation than that");
 }
 
-// Tells how far a motion has come, after each so many steps: some hundredths of a second.
+// Counts the steps of an equation, and reports progress each time `interval` of them have passed,
+// which takes some hundredths of a second.
 class Watch {
  public:
   Watch(const Progress& progress, const char* stage) : progress_(progress), stage_(stage) {}
 
-  // Throws Interrupted where the answer is to stop.
+  // Throws Interrupted if the callback asks to stop.
   void passed(long steps, double fraction, int cycles = 0) {
     since_ += steps;
     if (!progress_ || since_ < interval) return;
@@ -79,11 +80,13 @@ class Watch {
   long since_ = 0;
 };
 
-// The contact at its mean indentation, and steady sliding at the velocity of the drive.
+// The contact at its mean indentation, and its steady sliding at the velocity of the drive.
 struct Case {
   SliderContact contact;
   SteadySliding sliding;
-  double spring_offset;  // x − Vt of steady sliding by the averaged equation, m
+  // X − Vt of steady sliding by the averaged equation, with the position x of the slider and the
+  // drive at Vt, m.
+  double spring_offset;
 
   Case(const ContactLaw& law, const OperatingPoint& point, const NormalOscillation& normal,
        const Slider& slider, double friction_coefficient, const SliderOptions& options)
@@ -102,26 +105,29 @@ struct Case {
     constexpr double most = 500'000;
     const double steps = SliderEquation::steps_of_period(contact, slider, options.steps);
     require(steps <= most, "steps", steps,
-            "are needed in a period of the oscillation, and at most 500000 are followed; use a "
-            "faster oscillation, a heavier slider or a contact that is less stiff");
+            "are needed in a period of the oscillation, but at most 500000 are allowed; use a "
+            "faster oscillation, a heavier slider or a less stiff contact");
   }
 
-  // A cycle that sticks lasts as long as the drive needs to load the spring.
+  // Upper bound of the duration of a slow cycle, s: a free oscillation on the spring, and the time
+  // in which the drive loads the spring while the slider sticks.
   double slow_cycle(const Slider& slider) const {
     return 2 * pi / natural_frequency(slider) +
            4 * sliding.mean_tangential_force / (slider.spring_stiffness * slider.velocity);
   }
 
-  // steps: of an equation in so much time. A second of a processor has some two million.
+  // Throws if a slow cycle needs more than 1e7 steps. An equation takes `steps` steps in `time`. A
+  // processor computes some two million steps per second.
   void check_cost(double steps, double time, const Slider& slider) const {
     constexpr double most = 1e7;
     const double needed = std::ceil(steps * slow_cycle(slider) / time);
     require(needed <= most, "steps", needed,
-            "are needed in a slow cycle, and at most 1e7 are followed; use a slower oscillation, a "
+            "are needed in a slow cycle, but at most 1e7 are allowed; use a slower oscillation, a "
             "stiffer spring, a lighter slider or a faster drive");
   }
 
-  // Where friction would drive.
+  // Throws if the total friction force, lowered by the falling slope, would be negative at this
+  // velocity.
   void check_velocity(double velocity, const Slider& slider, const char* what) const {
     const double friction = sliding.mean_tangential_force;
     if (!(slider.falling_slope * velocity < friction))
@@ -145,7 +151,8 @@ struct Sample {
   SliderTotals totals;
 };
 
-// Finds slow cycles, from one least x − Vt to the next, in samples of equal spacing.
+// Finds slow cycles in samples of equal spacing. A cycle lasts from one minimum of x − Vt to the
+// next (position x of the slider, position Vt of the drive).
 class CycleMeter {
  public:
   CycleMeter(const Slider& slider, double tolerance)
@@ -153,7 +160,7 @@ class CycleMeter {
         length_(slider.velocity / natural_frequency(slider)),
         tolerance_(tolerance) {}
 
-  // A greatest or least x − Vt, between samples by the parabola through three.
+  // A maximum or minimum of x − Vt, located between samples by the parabola through three of them.
   struct Turn {
     Sample sample;
     double time = 0, offset = 0;
@@ -172,7 +179,8 @@ class CycleMeter {
     }
     low_ = std::min(low_, sample.offset), high_ = std::max(high_, sample.offset);
     if (sample.totals.time - window_.totals.time >= slow_period_) {
-      // A disturbance of a thousandth of the drive's velocity swings over 2e-3 of this length.
+      // The motion is steady sliding if x − Vt stays within 2e-3 of length_ for a slow period. A
+      // velocity disturbance of a thousandth of the drive's velocity makes this range.
       steady_ = high_ - low_ < 2e-3 * length_;
       window_ = sample, low_ = high_ = sample.offset;
     }
@@ -181,7 +189,7 @@ class CycleMeter {
       before_extreme_ = last_, extreme_ = sample, after_extreme_.reset();
     } else {
       if (!after_extreme_) after_extreme_ = sample;
-      // Ripples of a contact that swings while it sticks are no cycles.
+      // Smaller swings are not cycles: the contact may oscillate elastically while it sticks.
       if (-beyond > std::max(0.25 * last_swing_, 1e-3 * length_)) turn(sample);
     }
     last_ = sample;
@@ -191,8 +199,9 @@ class CycleMeter {
   const std::vector<Cycle>& cycles() const { return cycles_; }
   double slow_period() const { return slow_period_; }
 
-  // Whether the cycles repeat: those of the last quarter and those before them have one range. A
-  // motion without sticking may also grow or decay slowly, hence more of them.
+  // Returns whether the cycles repeat: the mean ranges of x − Vt in the last quarter of the cycles
+  // and in the quarter before it agree. A motion without stick may grow or decay slowly, so it
+  // needs more cycles.
   bool repeats() {
     const std::size_t count = cycles_.size();
     if (count < 6 || count == seen_) return false;
@@ -205,7 +214,7 @@ class CycleMeter {
     return count >= 40 && drift_ < 0.05 * tolerance_;
   }
 
-  // The samples of the cycles that were found to repeat, which are averaged.
+  // Number of cycles at the end of the record that count as repeating; their samples are averaged.
   std::size_t kept() const {
     return std::min(2 * std::max<std::size_t>(cycles_.size() / 4, 2), cycles_.size());
   }
@@ -299,7 +308,7 @@ void record(SliderMotion& motion, Equation& equation, const Slider& slider, doub
   }
 }
 
-// Follows an equation until its motion repeats.
+// Integrates an equation of motion until the motion repeats.
 template <class Equation>
 SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
                     const SliderOptions& options) {
@@ -354,7 +363,8 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
   return motion;
 }
 
-// One period of the full equation from the least indentation, as a map of (x − Vt, ẋ − V).
+// Maps (x − Vt, ẋ − V) at one minimum of the indentation to the same quantities one period of the
+// oscillation later, by the full equation of motion.
 struct PeriodMap {
   SliderEquation& equation;
   Watch& watch;
@@ -367,9 +377,10 @@ struct PeriodMap {
   }
 };
 
-// The Jacobian by central differences; the map is smooth but for the second derivatives of T.
+// Jacobian matrix of a PeriodMap by central differences. The map is smooth, except that the second
+// derivatives of the friction force jump.
 struct Jacobian {
-  double a, b, c, d;  // row by row
+  double a, b, c, d;  // elements, row by row
   double determinant() const { return a * d - b * c; }
   double radius() const {
     const double half = 0.5 * (a + d), square = half * half - determinant();
@@ -387,9 +398,11 @@ Jacobian jacobian(const PeriodMap& map, double offset, double relative_velocity,
           (right[1] - left[1]) / (2 * dx), (up[1] - down[1]) / (2 * dv)};
 }
 
-// First harmonic of T over the amplitude when nothing sticks, N/m; a mean of K_t over the cycle.
+// Amplitude of the first harmonic of the tangential force if all springs slip all the time, divided
+// by (μK/K_t)u_z, N/m. This is a weighted mean of K_t over the cycle.
 double sliding_stiffness(const SliderContact& contact) {
-  // The integrand is periodic and even: the rule is as good as exact where the law is smooth.
+  // The integrand is a smooth, even and periodic function of the phase, for which the trapezoidal
+  // rule is exact to round-off.
   constexpr int nodes = 64;
   double sum = 0;
   for (int i = 1; i < nodes; ++i) {
@@ -401,7 +414,7 @@ double sliding_stiffness(const SliderContact& contact) {
   return 2 * sum / nodes;
 }
 
-// The error of sliding_damping, which slider_stability() describes.
+// The error of SteadySliding::sliding_damping, explained at slider_stability().
 double damping_error(const Case& at, const Slider& slider, double friction_coefficient) {
   const double damping = at.sliding.sliding_damping;
   if (!(damping > 0)) return 0;
@@ -419,15 +432,15 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
                             .front()
                             .sliding_damping;
   const double slow = natural_frequency(slider) / omega;
-  // A tenth for what is of higher order.
+  // The factor 1.1 allows for terms of higher order.
   return 1.1 * std::max(more, damping - faster) + pi * pi / 3 * slow * slow * damping;
 }
 
-// The least place in (low, high] where `damping` reaches what is needed; NaN: nowhere, or already at
-// low, since the least place then lies below.
+// The smallest argument in (low, high] at which the function `excess` reaches 0. NaN if there is
+// none, or if excess(low) >= 0, since the smallest argument is then below `low`.
 double first_reached(const std::function<double(double)>& excess, double low, double high) {
   constexpr double ratio = 1.05;
-  constexpr int most = 2000;  // 42 decades
+  constexpr int most = 2000;  // 2000 steps cover 42 decades
   double before = low, position = low;
   for (int k = 0; k < most && position < high; ++k) {
     position = std::min(ratio * position, high);
@@ -440,7 +453,7 @@ double first_reached(const std::function<double(double)>& excess, double low, do
   return SliderThreshold::unknown;
 }
 
-// A slider on a contact, without the oscillation that should steady it.
+// A slider on a contact. The normal oscillation that is to stabilise its sliding is not included.
 struct SlidingPair {
   const ContactLaw& law;
   const OperatingPoint& point;
@@ -449,7 +462,8 @@ struct SlidingPair {
   const SliderOptions& options;
 };
 
-// Threshold over what `normal_of` makes an oscillation from, from `low`, where nothing sticks.
+// Threshold of stable sliding in a quantity that normal_of() turns into a normal oscillation, for
+// example its amplitude. The search begins at `low`; the contact never sticks below `low`.
 SliderThreshold threshold(const SlidingPair& pair, double low, double high,
                           const std::function<NormalOscillation(double)>& normal_of) {
   const ContactLaw& law = pair.law;
@@ -465,7 +479,8 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
         [&](double position) {
           const Case at(law, point, normal_of(position), slider, friction_coefficient, options);
           const double error = errors != 0 ? damping_error(at, slider, friction_coefficient) : 0;
-          // An unknown error bounds nothing: upwards all is possible, downwards nothing is sure.
+          // If the error is unknown, the estimate with +error returns its first argument and the
+          // estimate with −error finds no threshold.
           if (std::isnan(error)) return errors * needed;
           return at.sliding.sliding_damping + errors * error - needed;
         },
@@ -478,8 +493,8 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
       std::isnan(nearer) ? SliderThreshold::unknown : std::max(further, nearer);
   threshold.value = first_reached(
       [&](double position) {
-        const SliderStability one =
-            slider_stability(law, point, normal_of(position), slider, friction_coefficient, options);
+        const SliderStability one = slider_stability(law, point, normal_of(position), slider,
+                                                     friction_coefficient, options);
         return one.converged ? -one.growth_rate : -needed;
       },
       low, high);
@@ -488,10 +503,10 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
 
 void check_falling(const Slider& slider) {
   require(slider.falling_slope > slider.support_damping, "falling_slope", slider.falling_slope,
-          "N s/m must be above support_damping; sliding is stable without oscillation otherwise");
+          "N s/m must exceed `support_damping`; otherwise sliding is stable without oscillation");
 }
 
-// v_c = (μK/K_t)u_z ω, over u_z ω.
+// v_c/(u_z ω) = μK/K_t, with the critical velocity v_c = (μK/K_t)u_z ω.
 double limit_of_slope(const ContactLaw& law, const OperatingPoint& point,
                       double friction_coefficient) {
   return friction_coefficient / law.stiffness_ratio(indentation_of(law, point));
@@ -514,7 +529,8 @@ SliderMotion slider_motion(const ContactLaw& law, const OperatingPoint& point,
   for (int halving = 1;; ++halving) {
     SliderMotion fine = motion_with(options.steps << halving);
     const bool same = fine.state == coarse.state;
-    // Second order: of the difference, a third is left.
+    // The error of the steps is of second order: a third of the difference between the coarse and
+    // the fine solution remains in the fine one.
     const double difference = std::abs(fine.slider_amplitude - coarse.slider_amplitude);
     fine.slider_amplitude_error += difference / 3;
     const bool close = same && difference <= options.tolerance * fine.slider_amplitude;
@@ -530,7 +546,7 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const OperatingPoint&
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options) {
   const Case at(law, point, normal, slider, friction_coefficient, options);
-  constexpr double parts = 256;  // of a slow period, in which it advances
+  constexpr double parts = 256;  // advance() covers 1/256 of a slow period
   at.check_cost(parts, 2 * pi / natural_frequency(slider), slider);
   AveragedSlider equation(at.contact, at.sliding, friction_coefficient, slider);
   return follow(equation, at, slider, options);
@@ -598,7 +614,7 @@ SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Operati
   check_falling(slider);
   const double touch =
       slider.velocity / last.normal_amplitude / limit_of_slope(law, point, friction_coefficient);
-  // Slower oscillations do not average.
+  // A lower frequency than about four times the natural frequency would not average the friction.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
   return threshold(
       {law, point, slider, friction_coefficient, options}, low, last.angular_frequency,

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra::detail {
@@ -23,8 +23,8 @@ TangentialContact contact_of(const SliderContact& at) {
            .tangential_range = std::numeric_limits<double>::infinity()}};
 }
 
-// Angular frequency of the slider on its spring and the stiffest contact; never below that of the
-// spring alone.
+// Natural angular frequency of the slider on its spring and the contact at its largest indentation,
+// rad/s; at least the natural frequency on the spring alone.
 double fastest_of(const SliderContact& contact, const Slider& slider) {
   const double highest = contact.indentation + contact.normal_amplitude;
   return std::sqrt((slider.spring_stiffness + contact.law.tangential_stiffness(highest)) /
@@ -41,7 +41,7 @@ double SliderEquation::period_of(const SliderContact& contact, const Slider& sli
 double SliderEquation::steps_of_period(const SliderContact& contact, const Slider& slider,
                                        int steps) {
   const double resonances = period_of(contact, slider) * fastest_of(contact, slider) / (2 * pi);
-  // Without an oscillation it is 1, to round-off.
+  // Without an oscillation `resonances` is 1 to round-off.
   return steps * std::ceil(std::max(1.0, resonances * (1 - 1e-12)));
 }
 
@@ -62,8 +62,10 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
   if (oscillates) {
     const double low = contact.min_indentation();
     for (const double spring_depth : sweep_breaks(contact.law, low, highest)) {
-      if (!(spring_depth > low && spring_depth < highest) || contact.law.force(spring_depth) > 0) continue;
-      const double phase = 2 * std::atan2(std::sqrt(spring_depth - low), std::sqrt(highest - spring_depth));
+      if (!(spring_depth > low && spring_depth < highest) || contact.law.force(spring_depth) > 0)
+        continue;
+      const double phase =
+          2 * std::atan2(std::sqrt(spring_depth - low), std::sqrt(highest - spring_depth));
       const double time = phase / contact.angular_frequency;
       times.push_back(time);
       times.push_back(period_ - time);
@@ -117,7 +119,8 @@ void SliderEquation::part(const Instant& from, const Instant& to, double acceler
   contact_.move_to(to.indentation, position);
   furthest_ = std::max(furthest_, position - slope_limit_ * to.indentation);
   force_ = contact_.tangential_force();
-  // The new velocity is on both sides.
+  // Velocity Verlet: the new velocity occurs on both sides of its equation, in the damping force,
+  // and is solved for.
   relative_velocity_ = before + 0.5 * length * acceleration_now;
   const double rest =
       (-slider_.spring_stiffness * offset_ + slider_.falling_slope * slider_.velocity - force_) /
@@ -147,7 +150,7 @@ SliderEquation::Instant SliderEquation::next_event(const Instant& from, const In
                                                    double acceleration_now) const {
   const double length = to.time - from.time;
   const double velocity = relative_velocity_ + slider_.velocity;
-  // Events that are nearer to an end of the step are left to it.
+  // Events closer than this to the beginning or the end of the step count as that instant.
   const double least = 1e-4 * length;
   double first = length;
   const auto locate = [&](const auto& distance, double at_start, double at_end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated cycles with Coulomb friction, without and with coupling of pressures and tractions
-// (damping/cycle.hpp).
+// The simulated cycles with Coulomb friction: one without and one with coupling of pressures and
+// tangential tractions (damping/cycle.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,13 +20,14 @@
 namespace salebra {
 namespace {
 
-// The pressures of each step of a period. Going down, a cycle meets the indentations of its way up
-// again.
+// The contact pressures at each step of a period. Indentations that occur twice, as in the rising
+// and the falling half of an oscillation, share one field.
 class StepPressures {
  public:
-  StepPressures(const PressureFields& contact_sets, const Grid2D& grid, const Trajectory& trajectory,
-                int steps, double resolution) {
-    // A field for every second step, since the way down meets those of the way up.
+  StepPressures(const PressureFields& contact_sets, const Grid2D& grid,
+                const Trajectory& trajectory, int steps, double resolution) {
+    // One field for every second step, because the falling half reuses the fields of the rising
+    // half.
     require_memory(grid, 0.5 * sizeof(double) * steps * static_cast<double>(grid.points()),
                    "the pressures of its steps (fewer `steps` need less)");
     for (int k = 0; k <= steps; ++k) {
@@ -48,7 +49,7 @@ class StepPressures {
   Termination termination_ = Termination::converged;
 };
 
-// What both have in common: a contact that slips, driven along a straight line.
+// Common part of the simulations with friction: a contact that slips, driven along a straight line.
 class SlidingBody : public detail::CycleBody {
  public:
   SlidingBody(const Trajectory& trajectory, const CycleOptions& options)
@@ -71,7 +72,7 @@ class SlidingBody : public detail::CycleBody {
   }
   double time(int step) const { return static_cast<double>(step) / steps_; }
   double indentation(int step) const { return trajectory_.indentation(time(step)); }
-  /// The way of a period.
+  /// Tangential distance of one period.
   TangentialMove drift() const {
     return along(trajectory_.tangential(1) - trajectory_.tangential(0));
   }
@@ -99,7 +100,7 @@ class FrictionalBody : public SlidingBody {
                  const detail::TrajectoryRange& range)
       : SlidingBody(trajectory, options),
         pressures_(contact_sets, grid, trajectory, options.steps, 1e-9 * range.sweep()),
-        // Without tangential motion nothing is solved for, and any scale will do.
+        // motion_scale must be positive; without tangential motion its value has no effect.
         contact_(grid, material,
                  {.friction_coefficient = options.friction_coefficient,
                   .motion_scale = range.tangential() > 0 ? range.tangential() : 1.0,
@@ -107,8 +108,8 @@ class FrictionalBody : public SlidingBody {
     ContactSet largest = ContactSet::Constant(grid.nx, grid.ny, false);
     for (int k = 0; k <= options.steps; ++k) {
       const Field& pressure = pressures_.at(k).contact_pressure;
-      require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "contact_sets", pressure.size(),
-              "pressures do not match the grid");
+      require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "contact_sets",
+              pressure.size(), "pressures do not match the grid");
       largest = largest || (pressure > 0);
     }
     contact_.reserve(largest);
@@ -148,7 +149,7 @@ class FrictionalBody : public SlidingBody {
   double normal_force_ = 0;
 };
 
-// Its tangential force is given, and its displacement follows.
+// A body whose tangential force is given at each step; its displacement is computed.
 class ForcedBody final : public FrictionalBody {
  public:
   ForcedBody(const PressureFields& contact_sets, const Grid2D& grid, const Material& material,
@@ -167,15 +168,17 @@ class ForcedBody final : public FrictionalBody {
       greatest = std::max(greatest, std::abs(forces_.back()));
     }
     require_positive(greatest, "tangential_force");
-    const StickStiffness stiffness = stick_stiffness(pressure_at(0).contact_pressure > 0, grid, material,
-                                                     options.stick, /*along_x_only=*/true);
+    const StickStiffness stiffness = stick_stiffness(
+        pressure_at(0).contact_pressure > 0, grid, material, options.stick, /*along_x_only=*/true);
     termination_ = stiffness.termination;
     stiffness_ = stiffness.xx;
     tolerance_ = 1e-7 * greatest;
     contact().set_motion_scale(greatest / stiffness_);
   }
 
-  // F_x grows with the distance: secants within a bracket, from the slope of full stick.
+  // Finds the displacement at which the tangential force has the given value, by secant steps
+  // within a bracket; the force grows with the displacement. The first step uses the stiffness in
+  // full stick.
   double advance(int step, double from) override {
     const Field& pressure = pressure_at(step).contact_pressure;
     double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -231,8 +234,8 @@ class CoupledBody final : public SlidingBody {
       contact_.restore(*state);
       return;
     }
-    // What sticks while the contact is made depends on how: from first touch, in rings of about one
-    // width.
+    // Which cells stick depends on how the contact is loaded. It is loaded from first touch in
+    // increments that grow with the step, so that rings of about equal width enter.
     const int approach = std::max(steps() / 4, 4);
     for (int k = 1; k <= approach; ++k) {
       const double part = static_cast<double>(k) / approach;
@@ -281,7 +284,8 @@ CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const 
     require_positive(options.friction_coefficient, "friction_coefficient");
     const Trajectory at_rest{trajectory.indentation, [](double) { return 0.0; }};
     const detail::TrajectoryRange range = detail::checked_range(at_rest, options);
-    ForcedBody body(contact_sets, grid, material, at_rest, trajectory.tangential_force, options, range);
+    ForcedBody body(contact_sets, grid, material, at_rest, trajectory.tangential_force, options,
+                    range);
     return detail::run_cycle(body, grid, at_rest, options);
   }
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
@@ -298,7 +302,8 @@ CycleResult simulate_coupled_cycle(const Surface& surface, const Material& mater
           "must be >= 0 throughout a coupled cycle");
   const double coupling =
       options.coupling_constant ? *options.coupling_constant : coupling_constant(material);
-  // The coupling itself moves the surface by about β of the sweep.
+  // The pressures displace the surface tangentially by about Dundurs' β times the sweep of the
+  // indentation, even without tangential motion.
   const double scale =
       std::max(range.tangential(),
                std::abs(dundurs_constant(material.contact_modulus, coupling)) * range.sweep());

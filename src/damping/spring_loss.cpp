@@ -17,13 +17,16 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int steps = 360;  // the loss is then good to 1e-4
+constexpr int steps = 360;  // samples per period: the loss is then accurate to 1e-4
 
 }  // namespace
 
-SlidingSprings::SlidingSprings(double swing, double speed) : rise_(swing * mean_rise(speed / swing)) {
-  // The stretch above the least one follows the limit down, and sticks where the limit runs away: r
-  // + x in two cycles after a first. Later ones are greater by the way, and decide no minimum.
+SlidingSprings::SlidingSprings(double swing, double speed)
+    : rise_(swing * mean_rise(speed / swing)) {
+  // Computes the mean ⟨b⟩ of the drag-back distance b(φ) defined in the header. `position` is r + x
+  // over two cycles, after a first cycle that makes r periodic. r follows the stretch limit when
+  // this falls, and sticks when this grows faster than the body moves. Later cycles need no
+  // storage: r + x grows by the distance per cycle, so its minimum lies in these two cycles.
   constexpr std::size_t phases = 240;
   const double step = 2 * pi * speed / phases;
   std::array<double, 2 * phases> position;
@@ -41,8 +44,7 @@ SlidingSprings::SlidingSprings(double swing, double speed) : rise_(swing * mean_
 
 double SlidingSprings::loss_over_distance(double min_stretch, double excursion) const {
   const double mean = min_stretch + rise_;
-  return std::max(0.0,
-                  mean * (excursion - 2 * mean) + (2 * min_stretch + 4.0 / 3 * rise_) * back_);
+  return std::max(0.0, mean * (excursion - 2 * mean) + (2 * min_stretch + 4.0 / 3 * rise_) * back_);
 }
 
 double SlidingSprings::deepest(double excursion) const {
@@ -62,7 +64,7 @@ LossOfSpring::LossOfSpring(const Oscillation& motion, double stretch, double exc
     closed_.emplace(stretch * amplitude_, speed);
     depth_ = closed_->deepest(excursion) / stretch;
   } else {
-    // A level sticks where one anchor is within its limit of x at all times.
+    // A spring sticks if one anchor stays within its stretch limit of x at all times.
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (int i = 0; i < steps; ++i) {
       const double angle = 2 * pi * i / steps, x = displacement(angle),
@@ -89,16 +91,20 @@ double LossOfSpring::displacement(double angle) const {
 double LossOfSpring::operator()(double spring_depth) const {
   if (spring_depth >= amplitude_) return 0;
   if (spring_depth > -amplitude_) {
-    const double half = std::acos(spring_depth / amplitude_), loss = followed(spring_depth, half, 1);
-    // A turning point while it is closed leaves it, in slow motion, a third of its loss.
+    const double half = std::acos(spring_depth / amplitude_),
+                 loss = followed(spring_depth, half, 1);
+    // If the drag turns while the spring is closed, the spring keeps a third of its loss on average
+    // in slow motion.
     return closed_ ? loss * (1 - closed_->turning_share(excursion_) * half / pi) : loss;
   }
   if (!closed_) return followed(spring_depth, pi, 2);
-  return closed_->loss_over_distance(stretch_ * (-amplitude_ - spring_depth), excursion_) * distance_ / excursion_;
+  return closed_->loss_over_distance(stretch_ * (-amplitude_ - spring_depth), excursion_) *
+         distance_ / excursion_;
 }
 
-// ∮s dx of a spring that touches from −half to half, in the last of the periods: exact for straight
-// steps. What is stored at both ends is the same.
+// ∮s dx of a spring with the stretch s that touches from the phase −half to half, in the last of
+// `periods` periods; exact for straight steps. This equals the loss, since the stored energy is the
+// same at the beginning and the end.
 double LossOfSpring::followed(double spring_depth, double half, int periods) const {
   const auto limit_at = [&](double angle) {
     return std::max(0.0, stretch_ * (amplitude_ * std::cos(angle) - spring_depth));

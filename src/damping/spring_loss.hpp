@@ -7,49 +7,54 @@
 
 namespace salebra::detail {
 
-/// Levels that stay closed on a slow way between turning points at random phases of the normal
-/// cycle, springs of 1 N/m. The least stretch of one in a cycle is e, and while it slides its
-/// stretch is e + r(φ), r = 0 at the least indentation. Sliding would lose (e + ⟨r⟩)X on the way X.
-/// After a turning point at φ a spring sticks until its limit meets it from ahead, and until then it
-/// may be dragged back by b(φ) = max(0, max(r(φ) − r(φ') − x(φ') + x(φ))) where its limit falls
-/// faster than it is drawn. The mean over φ is
+/// Springs of 1 N/m that stay closed while a slow drag goes back and forth over the distance X,
+/// with turning points at random phases φ of the normal oscillation. A sliding spring has the
+/// smallest stretch e, at the smallest indentation, and the stretch e + r(φ) at the phase φ.
+/// Without turning points it would lose (e + ⟨r⟩)X over the distance X, where ⟨ ⟩ is the mean over
+/// φ. After a turning point at φ the spring sticks until it reaches its stretch limit in the new
+/// direction. Until then the limit may fall faster than the body moves, and drag the anchor back by
+/// b(φ) = max(0, max over later phases φ' of (r(φ) − r(φ') − x(φ') + x(φ))), x being the position
+/// of the body. The loss is
 ///     W = (e + ⟨r⟩) X − 2(e + ⟨r⟩)² + (2e + 4/3 ⟨r⟩)⟨b⟩,
-/// to first order in the way of a cycle over X, exact at e = 0 in slow motion, where ⟨b⟩ = ⟨r⟩/2.
+/// to first order in (distance per normal cycle)/X. It is exact at e = 0 in slow motion, where ⟨b⟩
+/// = ⟨r⟩/2.
 class SlidingSprings {
  public:
-  /// swing  (μ/g)u_z, m
-  /// speed  v/ω, m
+  /// swing  amplitude (μ/g)u_z of the stretch limit, m
+  /// speed  velocity v/ω of the drag, m per radian
   SlidingSprings(double swing, double speed);
 
-  /// 1 − W/(⟨r⟩X) at e = 0: the part that turning points take where levels begin to stay closed;
-  /// of a level that touches from −θ to θ, θ/π times it.
+  /// 1 − W/(⟨r⟩X) at e = 0: the fraction of the loss that turning points prevent, for springs that
+  /// are closed at all times by the smallest margin. For a spring that touches from the phase −θ to
+  /// θ the fraction is θ/π times this. excursion: X, m.
   double turning_share(double excursion) const { return (2 * rise_ - 4.0 / 3 * back_) / excursion; }
-  /// W, m²; 0 where it is not above 0.
+  /// Loss W over the distance X for the smallest stretch e, m² (J for 1 N/m); at least 0.
   double loss_over_distance(double min_stretch, double excursion) const;
-  /// e of the deepest level that slips, where W is 0.
+  /// Smallest stretch e of the deepest spring that slips, at which W is 0.
   double deepest(double excursion) const;
 
  private:
-  double rise_, back_ = 0;  // ⟨r⟩, ⟨b⟩
+  double rise_, back_ = 0;  // the means ⟨r⟩ and ⟨b⟩, m
 };
 
-/// w(ζ) of W = ∫K_t'(ζ) w(ζ) dζ with friction: what one spring of 1 N/m at the level ζ, which may be
-/// stretched by (μ/g)(δ − ζ), loses in a normal cycle of the steady state; with turning points it is
-/// the mean over the cycles of the way and over the phases of its ends. By parts
+/// Loss w(ζ) of one spring of 1 N/m at depth ζ (it touches at the indentation ζ) per normal cycle
+/// of the steady state. With friction the loss of a contact is W = ∫K_t'(ζ) w(ζ) dζ. A spring may
+/// be stretched by (μ/g)(δ − ζ), g = K_t/K. Under a drag between turning points w is the mean over
+/// the cycles of the path and over the phases of the turning points. Integration by parts gives
 ///     W = −∫K_t w' dζ,
-/// since w is 0 at the greatest indentation and at the deepest level that slips, and continuous
-/// where levels begin to stay closed.
+/// since w is 0 at the largest indentation and at the deepest spring that slips, and is continuous
+/// where springs begin to stay closed.
 class LossOfSpring {
  public:
-  /// stretch    μ/g
-  /// excursion  between the turning points of a drag, m
+  /// stretch    stretch limit of a spring divided by its depth, μ/g
+  /// excursion  distance between the turning points of a drag, m; not used in an oscillation
   LossOfSpring(const Oscillation& motion, double stretch, double excursion);
 
-  /// level: ζ − δ0.
+  /// w of the spring with the depth ζ = δ0 + spring_depth, δ0 being the mean indentation.
   double operator()(double spring_depth) const;
-  /// How far below the least indentation levels slip.
+  /// Depth below the smallest indentation down to which springs slip.
   double depth() const { return depth_; }
-  /// Largest |w'| of the levels that stay closed.
+  /// Largest |dw/dζ| of the springs that stay closed.
   double steepest() const { return steepest_; }
 
  private:
@@ -58,8 +63,8 @@ class LossOfSpring {
 
   Oscillation motion_;
   double amplitude_, stretch_, excursion_;
-  double distance_ = 0;                            // of a drag in a normal cycle, m
-  std::optional<SlidingSprings> closed_ = {};  // of a drag
+  double distance_ = 0;                        // distance of a drag per normal cycle, m
+  std::optional<SlidingSprings> closed_ = {};  // set for a drag
   double depth_ = 0, steepest_ = 0;
 };
 

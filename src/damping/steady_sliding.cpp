@@ -19,26 +19,26 @@ namespace {
 
 using std::numbers::pi;
 
-// What a period looks like from the level of the spring foundation: r = v/v_c, φ counted from the
-// least indentation.
+// One period of steady sliding in dimensionless form, the same for springs of all depths. φ is the
+// phase since the smallest indentation, and r = v/v_c.
 class Period {
  public:
   explicit Period(double ratio) : ratio_(ratio), sticks_from_(std::asin(std::min(ratio, 1.0))) {}
 
-  // Levels that touch between these phases stick from the start.
+  // Springs that touch between these two phases stick at first.
   double sticks_from() const { return sticks_from_; }
   double sticks_to() const { return pi - sticks_from_; }
 
   double ratio() const { return ratio_; }
 
-  // The phase at which a level that sticks from `start` on begins to slip: −cosφ − rφ is there what
-  // it was.
+  // Phase φ_e at which a spring that touched and stuck at the phase `start` begins to slip: −cosφ −
+  // rφ is the same at both phases.
   double slips_at(double start) const {
     const double high = 2 * pi - start;
     return slips_at(start, high - (high - start) * std::min(ratio_, 0.5));
   }
 
-  // Finds it by Newton's method from a guess, held between bounds.
+  // Finds the same phase by Newton's method from a guess, within bounds.
   double slips_at(double start, double guess) const {
     const auto lead = [&](double phase) {
       return 2 * std::sin(0.5 * (phase + start)) * std::sin(0.5 * (phase - start)) -
@@ -52,13 +52,14 @@ class Period {
       (value > 0 ? low : high) = phase;
       const double slope = std::sin(phase) - ratio_, step = value / slope;
       phase -= step;
-      // What a step leaves is at most step²/2|slope|, for the second derivative is a cosine.
+      // After a step the remaining error is at most step²/(2|slope|), since |cosφ| bounds the
+      // second derivative of −cosφ − rφ.
       if (!(step * step > 1e-16 * std::abs(slope)) || !(high - low > 1e-15 * high)) break;
     }
     return std::clamp(phase, low, high);
   }
 
-  // Mean over the period of (m − δ_min)/u_z, where levels that never open have the stretch
+  // Mean over the period of (m − δ_min)/u_z. Springs of depth ζ that never open have the stretch
   // (μK/K_t)(m − ζ).
   double mean_rise() const {
     if (ratio_ >= 1) return 1;
@@ -78,8 +79,8 @@ struct PhaseState {
   double phase, sine, normal_stiffness, tangential_stiffness;
 };
 
-// Gauss–Kronrod rule of 7 points, exact for polynomials of degree 11, and the weights of its Gauss
-// rule of 3.
+// Gauss–Kronrod rule of 7 points, exact for polynomials up to degree 11, with the weights of the
+// Gauss rule of 3 points that it contains.
 constexpr int rule_points = 7;
 constexpr double rule_point[rule_points] = {
     -0.960491268708020283, -0.774596669241483377, -0.434243749346802558, 0,
@@ -89,14 +90,14 @@ constexpr double rule_weight[rule_points] = {
     0.401397414775962222, 0.268488089868333440, 0.104656226026467265};
 constexpr double gauss_rule_weight[rule_points] = {0, 5.0 / 9, 0, 8.0 / 9, 0, 5.0 / 9, 0};
 
-// The law over one half of the oscillation δ = δ_min + u_z(1 − cosφ), at nodes that all velocities
-// share.
+// A contact law over half an oscillation δ = δ_min + u_z(1 − cosφ), 0 <= φ <= π, evaluated at nodes
+// that all velocities use.
 class HalfPeriod {
  public:
   HalfPeriod(const ContactLaw& law, double low, double amplitude)
       : law_(law), low_(low), amplitude_(amplitude) {
     breaks_.push_back(0);
-    // Half angles are taken: arccos loses half the digits at both ends.
+    // Computes half angles by arctan, because arccos loses half the digits near 0 and π.
     const double high = low + 2 * amplitude;
     for (const double point : detail::sweep_breaks(law, low, high)) {
       const double phase = 2 * std::atan2(std::sqrt(std::max(point - low, 0.0)),
@@ -109,8 +110,8 @@ class HalfPeriod {
         nodes_.push_back(node);
   }
 
-  // Calls add(nodes, from, to) for the pieces between breaks of the law and a velocity's two
-  // phases.
+  // Calls add(nodes, from, to) for each piece of 0 <= φ <= π. The pieces are divided at break
+  // points of the law and at the two phases between which springs stick.
   template <class Add>
   void for_each_piece(const Period& period, const Add& add) const {
     for (std::size_t i = 1; i < breaks_.size(); ++i) {
@@ -146,17 +147,18 @@ class HalfPeriod {
   std::vector<PhaseState> nodes_;
 };
 
-// What one node adds: the force above μF(δ_min) and its derivative by v, both times 2π.
+// Contribution of one phase: the friction force above μF(δ_min), and its derivative with respect to
+// the velocity v, both times 2π.
 struct PhaseShare {
   double force, damping;
 };
 
-// A piece of the integral over the phase, by its nodes.
+// Integrals of both contributions over a piece of the phase, with the error of the force.
 struct PhasePiece {
   double from, to, value, error, damping;
 };
 
-// The shares of one velocity.
+// Computes the contributions (PhaseShare) at one velocity.
 struct Shares {
   const Period& period;
   double limit_scale, velocity, omega;
@@ -178,7 +180,8 @@ struct Shares {
       const PhaseState& node = nodes[static_cast<std::size_t>(j)];
       double slips = 0;
       if (node.phase > period.sticks_from() && node.phase < period.sticks_to()) {
-        // From the second one on, the guess follows the slope dφ_e/dφ.
+        // From the second node on, the guess uses the slope dφ_e/dφ of the phase at which springs
+        // slip.
         slips = before > 0 ? period.slips_at(node.phase,
                                              slipped + (std::sin(before) - period.ratio()) /
                                                            (std::sin(slipped) - period.ratio()) *
@@ -195,8 +198,8 @@ struct Shares {
     double spread = 0;
     for (int j = 0; j < rule_points; ++j)
       spread += rule_weight[j] * std::abs(values[j] - 0.5 * kronrod);
-    // The rules differ by the error of the lower order; its power 3/2 relative to the spread is
-    // that of the higher (QUADPACK).
+    // The difference of the two rules is the error of the Gauss rule. Divided by the spread of the
+    // integrand and raised to the power 3/2, it estimates the error of the Kronrod rule (QUADPACK).
     const double part = spread > 0 ? 200 * std::abs(kronrod - gauss) / spread : 0;
     const double half_width = 0.5 * (to - from);
     return {from, to, half_width * kronrod,
@@ -209,9 +212,10 @@ struct Force {
   bool converged = true;
 };
 
-// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece
-// is halved until the sum of errors reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π −
-// √(φ² + 4πr), which bends more than any law.
+// ∫_0^π of the contributions over 2π. Starts with the pieces of the law at the nodes that all
+// velocities use, then halves the piece with the largest error until the sum of the errors reaches
+// the tolerance. A spring that touches at φ near 0 begins to slip at φ_e ≈ 2π − √(φ² + 4πr) if the
+// velocity ratio r = v/v_c is small; this function bends more than any law.
 Force force_above_min(const HalfPeriod& half, const Shares& shares, double tolerance) {
   std::vector<PhasePiece> pieces;
   half.for_each_piece(shares.period,
@@ -252,7 +256,7 @@ void check(std::span<const double> velocities, double friction_coefficient) {
   for (const double velocity : velocities) require_positive(velocity, "drag_velocity");
 }
 
-// stuck: the cycle in which nothing slips.
+// stuck: result for the same oscillation without slip.
 std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactLaw& law,
                                       const NormalOscillation& normal,
                                       std::span<const double> velocities,

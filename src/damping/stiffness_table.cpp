@@ -23,7 +23,8 @@ double horner_derivative(const std::array<double, degree + 1>& c, double s) {
   return c[1] + s * (2 * c[2] + s * (3 * c[3] + s * (4 * c[4] + s * 5 * c[5])));
 }
 
-// Chebyshev–Lobatto nodes: both ends are nodes, so that neighbouring cells join.
+// Chebyshev–Lobatto nodes of a cell. They include both ends of the cell, so that the polynomials of
+// neighbouring cells meet.
 std::array<double, degree + 1> nodes() {
   std::array<double, degree + 1> s{};
   for (int i = 0; i <= degree; ++i)
@@ -57,8 +58,8 @@ StiffnessTable::StiffnessTable(const ContactLaw& law, double lowest, double high
     : core_(law.tangential_stiffness(lowest)), highest_(highest) {
   const double change = law.tangential_stiffness(highest) - core_;
   require(std::isfinite(highest - lowest) && std::isfinite(core_ + change), "indentation", highest,
-          "m takes the contact's stiffness beyond all measure; reduce the motion");
-  // Below the law's own round-off no halving helps.
+          "m makes the contact stiffness overflow; reduce the motion");
+  // Tolerance for the polynomials, not smaller than the round-off of the law.
   const double tolerance =
       std::max(relative_tolerance * std::abs(change), 1e-15 * (core_ + std::abs(change)));
   if (highest > lowest) {
@@ -88,14 +89,15 @@ void StiffnessTable::add_cells(const ContactLaw& law, double low, double high, d
   std::array<double, degree + 1> values{};
   std::ranges::transform(s, values.begin(), exact);
   cell.coefficients = monomials(s, values);
-  // A jump needs some fifty halvings to become a ramp too steep to matter.
+  // A jump of K_t needs some fifty halvings of its cell; the remaining steep ramp has no effect.
   constexpr int deepest = 50;
   bool fits = true;
   for (std::size_t i = 0; i < degree && fits && depth < deepest; ++i) {
     const double between = 0.5 * (s[i] + s[i + 1]);
     fits = std::abs(horner(cell.coefficients, between) - exact(between)) <= tolerance;
   }
-  // Where a law scatters by more than the tolerance, each half would be halved to the deepest.
+  // Limits the number of cells: if a law scatters by more than the tolerance, each cell would be
+  // halved as often as possible.
   constexpr std::size_t max_cells = std::size_t{1} << 20;
   if (fits || !(cell.middle > low && cell.middle < high) || cells_.size() >= max_cells) {
     cells_.push_back(cell);
@@ -117,8 +119,9 @@ double StiffnessTable::at(double indentation) const {
                 std::clamp((indentation - cell.middle) / cell.half_width, -1.0, 1.0));
 }
 
-// Four Gauss points are exact up to degree 7; the integrand has degree 6. Nothing cancels, however
-// short the range.
+// Moments of K_t' over [low, high] within one cell. The four Gauss points are exact for polynomials
+// up to degree 7, and the integrand has degree 6. The sum has no cancellation, however short the
+// range is.
 StiffnessTable::Moments StiffnessTable::within(const Cell& cell, double low, double high) const {
   constexpr double node[2] = {0.3399810435848563, 0.8611363115940526};
   constexpr double weight[2] = {0.6521451548625461, 0.3478548451374538};

@@ -8,24 +8,25 @@
 
 namespace salebra::detail {
 
-/// K_t of a law over [lowest, highest] as piecewise polynomials of degree 5 on cells that are
-/// halved until they fit, so that every integral of K_t' that the tangential problem needs is exact
-/// for the table and costs tens of nanoseconds, whatever the law costs. Immutable; memory depends
-/// on the law and the tolerance only.
+/// K_t of a law over the indentations [lowest, highest] as piecewise polynomials of degree 5, on
+/// cells that are halved until the polynomials fit. The tangential problem needs integrals of K_t';
+/// they are exact for the table and cost tens of nanoseconds each, however expensive the law is.
+/// The table is immutable. Its memory depends only on the law and the tolerance.
 class StiffnessTable {
  public:
   /// ∫K_t'(ζ)(ζ − low)^k dζ over [low, high], k = 0, 1, 2.
   struct Moments {
     double zeroth = 0, first = 0, second = 0;
-    void append(const Moments& next, double offset);  ///< of the range that begins `offset` higher
+    /// Adds the moments of the range that follows this one. offset: width of this range.
+    void append(const Moments& next, double offset);
   };
 
-  /// relative_tolerance: of K_t, against its change over the range.
+  /// relative_tolerance: allowed error of K_t, relative to the change of K_t over the range.
   StiffnessTable(const ContactLaw& law, double lowest, double highest, double relative_tolerance);
 
   double lowest() const { return starts_.front(); }
   double highest() const { return highest_; }
-  /// K_t(lowest), which at() and moments() leave out.
+  /// K_t(lowest). at() and moments() do not contain it.
   double core() const { return core_; }
   /// K_t(δ) − K_t(lowest); δ is clamped to the range.
   double at(double indentation) const;
@@ -35,7 +36,7 @@ class StiffnessTable {
  private:
   struct Cell {
     double middle = 0, half_width = 0;
-    std::array<double, 6> coefficients{};  // of K_t − core in s = (δ − middle)/half_width
+    std::array<double, 6> coefficients{};  // of K_t − core in powers of s = (δ − middle)/half_width
   };
   void add_cells(const ContactLaw& law, double low, double high, double tolerance, int depth);
   std::size_t cell_of(double indentation) const;

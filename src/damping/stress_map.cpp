@@ -8,7 +8,7 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/damping/stress_map.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "max_motion.hpp"
 
 namespace salebra {
@@ -33,13 +33,14 @@ OscillatingStress::OscillatingStress(const IndenterLaw& law, double mean_indenta
   require(std::isfinite(amplitude_) && amplitude_ > 0, "normal_amplitude", amplitude_,
           "must be finite and > 0");
   require(mean_indentation + amplitude_ > 0, "indentation", mean_indentation,
-          "m is so low that the contact never closes");
+          "m is too low: the contact never closes");
   if (const auto* drag = std::get_if<Drag>(&motion))
     require_positive(drag->angular_frequency, "angular_frequency");
-  // A profile that ends too early is refused here and not in the middle of a map.
+  // An indenter profile that ends inside the largest contact is refused now, not in the middle of a
+  // map.
   static_cast<void>(law.contact_radius(mean_indentation + amplitude_));
   detail::require_possible(law, mean_indentation, amplitude_);
-  // cos θ = −δ0/u_z where the contact opens.
+  // Phase θ at which the contact opens: cosθ = −δ0/u_z
   open_angle_ = mean_indentation_ < amplitude_
                     ? half_angle(amplitude_ + mean_indentation_, amplitude_ - mean_indentation_)
                     : pi;
@@ -87,12 +88,16 @@ double OscillatingStress::pressure(double angle, double r) const {
   return law_.pressure(indentation(angle), r);
 }
 
-// q_x jumps at the edge by G*(x(θ) − x(−|θ|)), 0 while δ grows. Within, the levels that touched at
-// −β have the anchor x(−β), so that Eq. (17) becomes an integral over β; those inside the least
-// contact share one anchor and do not contribute. With Y = π − β the radius of a level grows like
-// a² = a_min² + BY² at first, so that 1/√(a² − r²) has a root at Y_r for r outside the least
-// contact, and a peak of width √((a_min² − r²)/B) inside: Y = Y_r cosh t and Y = width · sinh t
-// make both smooth, however close r is.
+// Shear stress q_x at the phase `angle` and the radius r. At the edge of the contact q_x jumps by
+// G*(x(θ) − x(−|θ|)), which is 0 while δ grows (x(θ): tangential position at the phase θ). Inside,
+// the springs that touched at the phase −β have the anchor x(−β), and Eq. (17) becomes an integral
+// over β. Springs inside the smallest contact (radius a_min) share one anchor and do not
+// contribute.
+//
+// With Y = π − β the radius a of a spring grows like a² = a_min² + BY² at first (B: a constant of
+// the profile). Therefore 1/√(a² − r²) in the integrand is singular at Y_r, where a = r, if r lies
+// outside the smallest contact; inside it has a peak of width √((a_min² − r²)/B). The substitutions
+// Y = Y_r cosh t and Y = width · sinh t make both integrands smooth, however close r is to a_min.
 double OscillatingStress::shear(double angle, double r) const {
   require(r >= 0, "radius", r, "must be >= 0");
   const double edge = contact_radius(angle), now = std::abs(angle);
@@ -113,8 +118,9 @@ double OscillatingStress::shear(double angle, double r) const {
     const double stretch = r > inner ? base_offset * std::sinh(t) : width * std::cosh(t);
     const double beyond =
         r > inner ? 2 * base_offset * std::pow(std::sinh(t / 2), 2) : offset - base_offset;
-    // How far the level lies above that of the base, without the difference of two cosines; close
-    // by, the radii differ too little for the difference of two inversions of g.
+    // Height of a spring above the base of the integral, computed without the difference of two
+    // cosines. If spring and base are close, the difference of their radii would also be lost in
+    // that of two inversions of the profile.
     const double climb =
         2 * amplitude_ * std::sin(0.5 * (offset + base_offset)) * std::sin(0.5 * beyond);
     double growth = climb / base_slope;
@@ -133,7 +139,9 @@ double OscillatingStress::shear(double angle, double r) const {
   return (jump / reach + tangential_modulus_ * integral.value) / pi;
 }
 
-// F_x = 2G*∫_0^a (x − x0) dX = 2G*[a(θ)(x(θ) − x(−|θ|)) + ∫_{|θ|}^{end} a(β) x'(−β) dβ] by parts.
+// Tangential force, after integration by parts: F_x = 2G*∫_0^a (x − x0) dX = 2G*[a(θ)(x(θ) −
+// x(−|θ|)) + ∫ a(β) x'(−β) dβ], integrated from |θ| to the phase at which the contact opens. a:
+// contact radius, x0: anchor of the spring at the radius X.
 double OscillatingStress::tangential_force(double angle) const {
   const double edge = contact_radius(angle), now = std::abs(angle);
   if (!(edge > 0)) return 0;

@@ -17,7 +17,8 @@ double inner_product(const TangentialField& a, const TangentialField& b) {
   return (a.x * b.x + a.y * b.y).sum();
 }
 
-// Caches levels by rounded indentation, so that a resumed run gets identical levels.
+// Stores solved contact sets by rounded indentation. A resumed run finds the same sets as the run
+// that it continues.
 class ContactSetStore {
  public:
   ContactSetStore(const ContactSets& contact_sets, double resolution)
@@ -45,7 +46,7 @@ class StuckBody final : public detail::CycleBody {
       : trajectory_(trajectory),
         steps_(options.steps),
         cell_area_(grid.cell_area()),
-        // Without tangential motion nothing is solved for, and any scale will do.
+        // motion_scale must be positive; without tangential motion its value has no effect.
         scale_(range.tangential() > 0 ? range.tangential() : 1.0),
         direction_x_(std::cos(options.direction)),
         direction_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0),
@@ -102,8 +103,8 @@ class StuckBody final : public detail::CycleBody {
     return cell_area_ * (direction_x_ * traction.x.sum() + direction_y_ * traction.y.sum());
   }
 
-  // Moves with the body to its place at a time; the force is linear in the move. Returns that
-  // place.
+  // Moves the tractions with the body from the position `from` to that at the time t, and returns
+  // the new position. The tangential force is linear in the distance.
   double move(double from, double t) {
     const double to = trajectory_.tangential(t), distance = to - from;
     if (!state_.contact.any()) return to;
@@ -116,7 +117,7 @@ class StuckBody final : public detail::CycleBody {
     return to;
   }
 
-  // Replaces the contact set at rest.
+  // Replaces the contact set while the body does not move tangentially.
   void change_to(const ContactSetAt& reached) {
     note(reached);
     normal_force_ = reached.force;
@@ -132,8 +133,8 @@ class StuckBody final : public detail::CycleBody {
       state_.displacement.y = entering.select(present.y, state_.displacement.y);
     }
     state_.contact = contact;
-    // The stick traction of the last set is a good guess for this one; solve() reads it on the
-    // contact only.
+    // The stick traction of the previous contact set is a good initial guess. solve() reads it only
+    // in cells that are in contact.
     count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
   }
 
@@ -171,7 +172,7 @@ class StuckBody final : public detail::CycleBody {
   double cell_area_, scale_, direction_x_, direction_y_;
   ContactSetStore contact_sets_;
   StickSolver solver_;
-  TangentialField unit_motion_;  // the body's direction
+  TangentialField unit_motion_;  // unit displacement in the direction of the tangential motion
   StuckState state_;
   double normal_force_ = 0;
 };
@@ -179,18 +180,22 @@ class StuckBody final : public detail::CycleBody {
 // Loss estimated from every stride-th contact set.
 struct LossInSteps {
   double lost = 0;
-  double variance = 0;  // from the unknown entry time of each cell within a step
+  // Variance of `lost`, because the time within a step at which a cell enters is unknown.
+  double variance = 0;
 };
 
-// W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in
-// steps of that length: what lies between two sets enters and leaves at the middle time. Cells that
-// enter at any time of a step, each by itself, have s² spread evenly between its values at the
-// ends. Of the second of two periods, since the first may begin anywhere.
+// Estimates W = ½∮s² dK_t (s: stretch of a spring where it separates) from the contact sets of
+// every `stride`-th step, as a simulation with steps of that length would find it: cells by which
+// two successive sets differ enter or leave at the time in the middle. The variance assumes that
+// each cell enters at an independent time within a step, with s² distributed evenly between its
+// values at the beginning and the end of the step. Follows two periods and counts the second, since
+// the first may begin with any contact set.
 LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Trajectory& trajectory,
                           double cell_area, int stride) {
   struct Band {
-    double top;                  // K_t up to which it reaches
-    double begin, middle, end;   // x while it entered
+    double top;  // K_t at the top of this band of springs
+    // Tangential position x at the beginning, middle and end of the step in which the band entered.
+    double begin, middle, end;
     double cells_per_stiffness;  // m/N
   };
   const int steps = static_cast<int>(samples.size()) - 1;
@@ -234,8 +239,8 @@ LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Traject
 double step_error_of(const CycleResult& result, const Trajectory& trajectory, double cell_area) {
   const LossInSteps here = loss_in_steps(result.samples, trajectory, cell_area, 1);
   const LossInSteps twice = loss_in_steps(result.samples, trajectory, cell_area, 2);
-  // A third of the change is the error of second order; the whole of it leaves room for cells that
-  // enter in groups.
+  // The error of the steps. If it is of second order, it is a third of the change under doubled
+  // steps; the whole change allows for cells that enter in groups.
   const double change = std::abs(here.lost - twice.lost);
   return std::max(change, change / 3 + 2 * std::sqrt(here.variance)) +
          std::abs(here.lost - result.work_per_cycle);
@@ -244,7 +249,7 @@ double step_error_of(const CycleResult& result, const Trajectory& trajectory, do
 }  // namespace
 
 ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
-                                      const NormalContactOptions& options) {
+                                          const NormalContactOptions& options) {
   surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
     if (indentation <= 0)
@@ -260,13 +265,13 @@ CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
                            const CycleOptions& options) {
   grid.validate();
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
-  // A contact set, of a byte a cell, for every second step, since the way down meets those of the
-  // way up.
+  // Memory of the contact sets, of one byte per cell, for every second step: the falling half of a
+  // period uses the same sets as the rising half.
   require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
                  "the contact sets of its steps (fewer `steps` need less)");
   StuckBody body(contact_sets, grid, material, trajectory, options, range);
-  // Started at the minimum indentation, every other cell has been released and has entered again:
-  // the period repeats.
+  // If the cycle starts at the minimum indentation, every cell that is not in contact there has
+  // been released and has entered again after one period, so the first period already repeats.
   const bool from_minimum =
       trajectory.indentation(0) <= range.indentation_min + 1e-9 * range.sweep();
   CycleResult result = detail::run_cycle(body, grid, trajectory, options, from_minimum);

@@ -21,30 +21,34 @@
 
 #include "kriged_stiffness.hpp"
 
-/// Contacts of a surface inside an oscillation about one load.
+/// Solved contacts of one surface at the indentations that an oscillation about one load passes.
 namespace salebra::detail {
 
-// K_t is a maximum over the tractions: its error is about the square of this.
+// Tolerance of the stick solves. The relative error of K_t is about its square, because K_t is the
+// maximum of a functional of the tractions.
 inline constexpr double stick_tolerance = 1e-3;
-// Stated error of a kriged number, in standard deviations: 93 % of normal deviates are smaller.
+// The stated error of a kriged quantity is this number of standard deviations; 93 % of normally
+// distributed errors are smaller.
 inline constexpr double stated_deviations = 1.8;
 
-/// Half the range of indentations of an oscillation about a load: with the force held the weight
-/// sinks back by u_z²F''/(4K), about u_z²K/(4F), and by u_z at most.
+/// Half the range of indentations that an oscillation about a load passes. If the mean force is
+/// held, the mean indentation decreases by u_z²F''/(4K), which is about u_z²K/(4F); u_z at most is
+/// allowed for.
 inline double half_range(const ForceSample& load, double amplitude, bool force_held) {
   if (!force_held) return amplitude;
   return amplitude +
          std::min(amplitude, amplitude * amplitude * load.normal_stiffness / load.force / 2);
 }
 
-/// Those of half as many intervals.
+/// Every second sample, as if the range had been divided into half as many intervals.
 inline std::vector<StiffnessSample> every_other(const std::vector<StiffnessSample>& samples) {
   std::vector<StiffnessSample> half;
   for (std::size_t k = 0; k < samples.size(); k += 2) half.push_back(samples[k]);
   return half;
 }
 
-/// ρ = K_t/((G*/E*)K) about one load, a parabola in ln F through three contacts.
+/// The stiffness ratio ρ = K_t/((G*/E*)K) about one load, as a parabola in ln F through three
+/// contacts with lower, equal and higher force.
 class StiffnessRatio {
  public:
   struct Point {
@@ -68,8 +72,8 @@ class StiffnessRatio {
     }
   }
 
-  /// As at the lowest or the highest of the three beyond them: where the contact opens F' goes to
-  /// zero with F, and ρ does not matter.
+  /// ρ at a force. Constant below the lowest and above the highest of the three forces. Where the
+  /// contact opens, K goes to zero with F, so ρ has no effect there.
   double at(double force) const {
     const double distance = std::clamp(std::log(std::max(force, 0.0) / force_), low_, high_);
     return value_ + distance * (slope_ + distance * bend_);
@@ -83,8 +87,8 @@ class StiffnessRatio {
     other.bend_ *= factor;
     return other;
   }
-  /// The line parallel to the chord from the lowest to the highest, at their distance of least
-  /// squares.
+  /// A straight line in ln F instead of the parabola: parallel to the chord from the lowest to the
+  /// highest point, and fitted to the three points by least squares.
   StiffnessRatio straight() const {
     StiffnessRatio line = *this;
     line.bend_ = 0;
@@ -95,7 +99,8 @@ class StiffnessRatio {
 
  private:
   static bool known(const Point& point) { return std::isfinite(point.ratio) && point.force > 0; }
-  double low_, high_, force_;  // ln F, from that of the middle
+  // Ln F of the lowest and highest point, relative to the middle one; F of the middle point.
+  double low_, high_, force_;
   double value_, slope_ = 0, bend_ = 0;
 };
 
@@ -104,7 +109,8 @@ inline StiffnessRatio::Point point_of(const ForceSample& sample, double modulus_
   return {sample.force, sample.converged ? ratio : std::numeric_limits<double>::quiet_NaN()};
 }
 
-/// By the neighbouring loads of the curve that converged.
+/// ρ about a load of the curve. The lower and the higher point are the nearest loads on either side
+/// that converged.
 inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double modulus_ratio) {
   StiffnessRatio::Point sides[2];
   for (const int side : {-1, 1})
@@ -118,12 +124,14 @@ inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double
   return {sides[0], point_of(curve.samples[load], modulus_ratio), sides[1]};
 }
 
-/// The contacts of one load on one grid.
+/// The contacts of one surface on one grid, solved when they are needed and then kept.
 class SurfaceContacts {
  public:
-  SurfaceContacts(const Surface& surface, double contact_modulus, const NormalContactOptions& options)
+  SurfaceContacts(const Surface& surface, double contact_modulus,
+                  const NormalContactOptions& options)
       : surface_(surface), contact_modulus_(contact_modulus), options_(options) {
-    // Where a periodic contact is full the indentation has no meaning.
+    // A periodic surface at full contact has no indentation, so indentations must stay below this
+    // limit.
     limit_ = std::numeric_limits<double>::infinity();
     if (options.boundary == Boundary::free) return;
     const HeightStatistics heights = height_statistics(surface);
@@ -132,7 +140,7 @@ class SurfaceContacts {
 
   bool usable() const { return converged_; }
 
-  /// The indentation under a pressure.
+  /// The indentation, m, at a pressure.
   double indentation_at(double pressure) {
     NormalContactState state =
         salebra::press(surface_, contact_modulus_, at_pressure(pressure), options_);
@@ -148,7 +156,8 @@ class SurfaceContacts {
     return sample;
   }
 
-  /// K_t/((G*/E*)K) by a stick solve; NaN where nothing touches.
+  /// The force and ρ = K_t/((G*/E*)K) at an indentation, K_t from a stick solve; NaN without
+  /// contact.
   StiffnessRatio::Point ratio_at(double indentation, const Material& material) {
     StiffnessSample& sample = contact(indentation);
     if (!(sample.force > 0)) return {};
@@ -167,7 +176,8 @@ class SurfaceContacts {
   }
 
  private:
-  /// The contact without its stiffness, solved where it is not known.
+  /// The contact at an indentation, perhaps without its stiffness. Solves it if it is not stored
+  /// yet.
   StiffnessSample& contact(double indentation) {
     if (indentation > 0 && indentation < limit_ && !known_.contains(indentation))
       press(indentation);
@@ -177,8 +187,9 @@ class SurfaceContacts {
     return sample;
   }
 
-  /// How many cells a straight piece of the perimeter has: (1 + s)/2s of a ridge at the slope s to
-  /// the grid, and all of its length where it is along the grid.
+  /// Mean number of cells that enter together, which is the number of cells in a straight piece of
+  /// the perimeter: (1 + s)/2s for a ridge at the slope s to the grid, and the whole length of the
+  /// ridge if it lies along the grid.
   double together(const ContactSpots& spots) const {
     const Grid2D& grid = surface_.grid;
     const double along_x = spots.perimeter_along_x / grid.dx();
@@ -188,7 +199,8 @@ class SurfaceContacts {
     return std::max(1.0, (along_x + along_y) / pieces);
   }
 
-  /// Adds the stiffness; returns the contact, of which it needs the pressure.
+  /// Adds K to a sample. K needs the pressures of the contact, which is solved again if it was not
+  /// the last one. Returns a state with these pressures.
   NormalContactState stiffen(StiffnessSample& sample, Field* punch_pressure = nullptr) {
     if (sample.indentation != last_at_) press(sample.indentation);
     NormalContactState state;
@@ -203,9 +215,11 @@ class SurfaceContacts {
     return state;
   }
 
-  /// Corrects the force of a contact for the gaps that the solver's tolerance left in it. With the
-  /// exact pressures p*, the gap is u = G(p − p*), and Gq = 1 gives Σ(p − p*) = Σqu. The error that
-  /// remains is round-off, so that forces of contacts at any distance may be subtracted.
+  /// Corrects the force of a contact for the gaps that the solver's tolerance left in cells in
+  /// contact. With the exact pressures p* and the compliance matrix G, these gaps are u = G(p −
+  /// p*). The pressures q of a unit indentation of the contact satisfy Gq = 1, hence Σ(p − p*) =
+  /// Σqu. The remaining error is round-off, so forces of contacts at any distance may be
+  /// subtracted.
   void correct_force(StiffnessSample& sample, const Field& punch_pressure) {
     const double sum = parallel::sum_blocks(
         surface_.partition(),
@@ -228,12 +242,13 @@ class SurfaceContacts {
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
         salebra::press(surface_, contact_modulus_, at_indentation(indentation), options);
-    // The key is what was asked for, to the last bit.
+    // known_ finds a contact only by the requested indentation, to the last bit.
     state.indentation = indentation;
     take(state);
   }
 
-  /// Pressures are nearly linear over the short way from two contacts to a third.
+  /// Initial guess of the pressures, extrapolated linearly in the indentation from the last two
+  /// contacts.
   std::optional<Field> extrapolated(double indentation) const {
     if (!before_) return last_;
     const double share = (indentation - last_at_) / (last_at_ - before_at_);
@@ -241,20 +256,20 @@ class SurfaceContacts {
     return Field((*last_ + share * (*last_ - *before_)).max(0.0));
   }
 
-  /// The state becomes the start of the next; its pressure is moved away.
+  /// Stores the results of a solve, and moves its pressures into the start of the next solve.
   void take(NormalContactState& state) {
     if (state.termination == Termination::interrupted) throw Interrupted("damping: interrupted");
     converged_ = converged_ && state.converged();
     StiffnessSample& sample = known_[state.indentation];
-    const ContactSpots spots =
-        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.communicator);
+    const ContactSpots spots = contact_spots(state.contact_pressure, surface_.grid,
+                                             options_.boundary, surface_.communicator);
     sample.indentation = state.indentation;
     sample.force = state.force;
     sample.cells =
         std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()));
     sample.spots = static_cast<double>(spots.spots.size());
-    // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy and
-    // Crofton).
+    // The perimeter along cell sides exceeds that of the smooth curve by the factor 4/π, averaged
+    // over directions (Cauchy and Crofton).
     sample.perimeter =
         std::numbers::pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area());
     sample.together = together(spots);
@@ -271,8 +286,9 @@ class SurfaceContacts {
   NormalContactOptions options_;
   double limit_;
   std::map<double, StiffnessSample> known_;
-  std::optional<Field> last_, before_;  // whether there are any is the same in all processes
-  Field last_gap_;                      // until the next is solved
+  // Pressures of the last two contacts; all processes agree on whether they exist.
+  std::optional<Field> last_, before_;
+  Field last_gap_;  // gaps of the last contact, valid until the next solve
   double last_at_ = 0, before_at_ = 0, last_force_ = 0;
   bool converged_ = true;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and
-// solver.
+// Damping of one surface from contacts solved inside the oscillation, with the errors by the number
+// of intervals, the cells and the solver.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -17,8 +17,8 @@
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
-#include "spring_loss.hpp"
 #include "phase_quadrature.hpp"
+#include "spring_loss.hpp"
 #include "surface/refine.hpp"
 #include "surface_contacts.hpp"
 
@@ -28,40 +28,44 @@ namespace {
 using detail::every_other;
 using detail::KrigedStiffness;
 using detail::LossOfSpring;
-using detail::SurfaceContacts;
 using detail::ratio_on;
 using detail::stated_deviations;
 using detail::StiffnessRatio;
 using detail::StiffnessSample;
+using detail::SurfaceContacts;
 using detail::VarianceScales;
 using std::numbers::pi;
 
 constexpr int max_intervals = 32;
 constexpr Index piece_parts = 64;
-// The finest grid has at least so many: the scatter of W is then a tenth.
+// On the finest grid at least this many cells must enter during the oscillation. The loss W then
+// scatters by about a tenth.
 constexpr double enough_cells = 100;
-constexpr double widest_window = 0.25;  // of F/K
-// F/K that one parabola and its random function span below the oscillation.
+// Largest half width of the range of solved contacts, in F/K.
+constexpr double widest_window = 0.25;
+// Largest range of indentations below the oscillation, in F/K, in which one parabola plus a random
+// function describes K.
 constexpr double widest_piece = 1.5;
-// Part of the loss with slip that is left to levels below the deepest contact.
+// Springs below the deepest solved contact may contribute this fraction of the loss with slip.
 constexpr double min_rest = 3e-3;
 
-/// A work per cycle, J.
+/// A loss per cycle predicted by kriging, with errors, J.
 struct KrigedWork {
   double work = Loss::unknown;
-  double deviation = std::numeric_limits<double>::infinity();  // standard
+  double deviation = std::numeric_limits<double>::infinity();  // standard deviation, J
   double ratio_error = 0, solver_error = 0;
 };
 
-/// What one grid says of one load.
+/// Results of one load on one grid; the loss of the base class is that without slip.
 struct GridValue : KrigedWork {
   KrigedWork with_slip;
-  double relaxation_work = Loss::unknown;  // of the loss with slip, J
+  double relaxation_work = Loss::unknown;  // part of the loss with slip, J
   Index points = 0;
   bool converged = false;
 };
 
-/// A change of W that two scatters do not explain.
+/// Part of the change of W between two grids that the standard deviations `one` and `other` of the
+/// two values do not explain.
 double beyond_scatter(double change, double one, double other) {
   return std::sqrt(std::max(0.0, change * change - one * one - other * other));
 }
@@ -77,10 +81,11 @@ class Load {
         ratio_(ratio_on(curve, k, material.modulus_ratio())),
         amplitude_(detail::normal_amplitude(motion)) {
     intervals_ = options.intervals;
-    // A drag without turning points is followed by no slow motion.
+    // The loss with slip under a drag depends on the distance between its turning points.
     if (!std::isnan(options.friction_coefficient) &&
         (std::holds_alternative<EqualFrequency>(motion) || !std::isnan(options.excursion)))
-      // A level of the force dF slips at μ dF, whatever its K_t is.
+      // With this stretch limit a spring that carries the normal force dF slips at μ dF, whatever
+      // its stiffness is.
       slip_.emplace(motion,
                     options.friction_coefficient / (material.modulus_ratio() * ratio_.middle()),
                     options.excursion);
@@ -115,8 +120,9 @@ class Load {
     const double center = contacts_at.indentation_at(sample_.pressure);
     if (first) {
       widen(contacts_at, center);
-      // Both stiffnesses see the same cells, so that the first grid is fine enough. A curve that
-      // has K_t = (G*/E*)K keeps it.
+      // K_t/K is computed on the first grid only: both stiffnesses see the same cells, so it hardly
+      // depends on the grid. A curve whose K_t is (G*/E*)K, without a stick solve, keeps this
+      // ratio.
       if (states_error() && std::abs(ratio_.middle() - 1) > 1e-9) {
         const auto high = contacts_at.ratio_at(center + half_, material_);
         const auto middle = contacts_at.ratio_at(center, material_);
@@ -129,8 +135,9 @@ class Load {
   }
 
  private:
-  /// The second difference of F over the window is about F(KH/F)²: its thousandth is lost in the
-  /// scatter.
+  /// Tolerance of the contact solver. The second difference of F over the range of contacts is
+  /// about F(KH/F)², with half the range H. A thousandth of this is smaller than the scatter by
+  /// cells.
   double tolerance() const {
     const double strain = half_ * sample_.normal_stiffness / sample_.force;
     return std::clamp(1e-3 * strain * strain, 1e-12, 1e-6);
@@ -143,7 +150,7 @@ class Load {
     while (half_ < widest && contacts_at.usable()) {
       const StiffnessSample high = contacts_at.without_stiffness_at(center + half_),
                             low = contacts_at.without_stiffness_at(center - half_);
-      // Those that enter together count once.
+      // Cells that enter at the same time count as one.
       const double cells = (high.cells - low.cells) / std::max(high.together, low.together);
       if (cells >= wanted) break;
       half_ = std::min(widest, half_ * std::clamp(1.2 * wanted / std::max(cells, 1.0), 2.0, 8.0));
@@ -152,9 +159,10 @@ class Load {
 
   bool states_error() const { return options_.coarsen || options_.refinements > 0; }
 
-  /// The first grid says how many levels are enough: their error is one of the surface, not of the
-  /// cells. With K of each contact half of them say hardly less, and are taken on other grids, and
-  /// where no error is stated.
+  /// Loss W on one grid. The number of intervals between contacts is chosen on the first grid,
+  /// since the error it causes depends on the surface and not on the cells. As K is known at each
+  /// contact, half as many intervals are almost as good; they are used on the other grids, and if
+  /// no error is stated.
   GridValue integrate(SurfaceContacts& contacts_at, double center) {
     const bool first = values_.empty();
     std::vector<StiffnessSample> contacts;
@@ -163,12 +171,12 @@ class Load {
       std::vector<StiffnessSample> finer(static_cast<std::size_t>(n + 1));
       const bool nested = !contacts.empty();
       for (int k = 0; k <= n; ++k)
-        finer[static_cast<std::size_t>(k)] = nested && k % 2 == 0
-                                                 ? contacts[static_cast<std::size_t>(k / 2)]
-                                                 : contacts_at.at(center + half_ * std::cos(pi * k / n));
+        finer[static_cast<std::size_t>(k)] =
+            nested && k % 2 == 0 ? contacts[static_cast<std::size_t>(k / 2)]
+                                 : contacts_at.at(center + half_ * std::cos(pi * k / n));
       contacts = std::move(finer);
       if (!contacts_at.usable()) return {};
-      // What one grid shows of the variances holds on the others.
+      // The factors of the variances (scales_), estimated on one grid, serve as prior on the next.
       const KrigedStiffness kriged(contacts, indices(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
@@ -178,24 +186,28 @@ class Load {
         const GridValue by_half =
             evaluate(KrigedStiffness(every_other(contacts), indices(center)), center, scales);
         interval_error_ = std::abs(value.work - by_half.work);
-        if (options_.choose_intervals && n < max_intervals && interval_error_ > value.deviation) continue;
+        if (options_.choose_intervals && n < max_intervals && interval_error_ > value.deviation)
+          continue;
       }
       scales_ = scales;
       const double mean = mean_position(kriged, center);
-      if (slip_ && std::isfinite(mean)) add_slip(value, contacts_at, contacts, kriged, mean, center, n);
+      if (slip_ && std::isfinite(mean))
+        add_slip(value, contacts_at, contacts, kriged, mean, center, n);
       return value;
     }
   }
 
-  /// W with friction, −∫K_t w' dζ (spring_loss.hpp): over the window by its contacts, and below it
-  /// by further ones, in pieces of no more than 1.5 F/K. No parabola with a random function of one
-  /// variance describes K over more, since both fall with the load. The pieces share the contact
-  /// at their border, and w is continuous, so that nothing of K at a border enters. Levels that
-  /// carry F below the last piece add less than F times the largest |w'|: pieces go on until this
-  /// is 0.3 % of W, which counts as an error of the levels. None is needed where levels slip only
-  /// so little below the window that K_t does not change there.
-  void add_slip(GridValue& value, SurfaceContacts& contacts_at, const std::vector<StiffnessSample>& contacts,
-                const KrigedStiffness& kriged, double mean, double center, int intervals) {
+  /// Adds W with friction, −∫K_t w' dζ (w: loss of one spring, spring_loss.hpp). The range of the
+  /// oscillation uses its own contacts. Below it, further contacts are solved in pieces of at most
+  /// 1.5 F/K: over a wider piece no parabola with a random function of one variance describes K,
+  /// since K and its variance fall with the load. Adjacent pieces share a contact and w is
+  /// continuous, so K at their border cancels. Springs below the last piece carry the force F and
+  /// add less than F times the largest |w'|. Pieces are added until this bound is 0.3 % of W, and
+  /// the bound counts as an error by the number of intervals. No piece is needed if springs slip so
+  /// little below the oscillation that K_t does not change over their depth.
+  void add_slip(GridValue& value, SurfaceContacts& contacts_at,
+                const std::vector<StiffnessSample>& contacts, const KrigedStiffness& kriged,
+                double mean, double center, int intervals) {
     const bool first = values_.empty(), chooses = intervals == intervals_;
     const double least = mean - amplitude_;
     KrigedWork sum{0, 0, 0, 0};
@@ -204,7 +216,7 @@ class Load {
                          const KrigedStiffness& between, const VarianceScales& scales) {
       Eigen::VectorXd of_spring =
           weights_of_springs(at, least, [&](double index) { return (*slip_)(index - mean); });
-      // w falls to 0 at once.
+      // K_t is constant below the oscillation, so w may be set to 0 at the lower end of its range.
       if (shallow_) of_spring(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_spring, at, between, ratio_);
       const auto [work, deviation] = between.estimate(weights, scales);
@@ -229,11 +241,12 @@ class Load {
                                             scales_)
                                   .value;
     };
-    // Below first touch there is nothing.
+    // Lowest indentation at which springs slip. There are no springs below first touch.
     const double bottom = std::max(0.0, least - slip_->depth());
     double top = center - half_;
     if (first && top > bottom) {
-      // K' is K²/F of an exponential contact, of a few spots up to some times that.
+      // Bound of dK/dδ below the oscillation: it is K²/F for an exponential contact, and up to
+      // three times as much for a few contact patches.
       const StiffnessSample& lowest_contact = contacts.back();
       const double bend =
           3 * lowest_contact.stiffness * lowest_contact.stiffness / lowest_contact.force;
@@ -249,8 +262,8 @@ class Load {
         rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
         if (!contacts_at.usable() || rest <= min_rest * std::abs(sum.work)) break;
         const double width = widest_piece * highest.force / highest.stiffness;
-        // No piece is so narrow that no cells enter, or that forces must be known to more digits
-        // than in the window.
+        // A narrower piece would need more digits of the forces than the range of the oscillation
+        // does, and perhaps no cell would enter in it.
         const double end = std::min(bottom, top - half_);
         pieces_.push_back(mean - (top - end < 1.2 * width ? end : top - width));
         rest = 0;
@@ -263,9 +276,9 @@ class Load {
       std::vector<StiffnessSample> inside;
       for (int k = 0; k <= intervals; ++k)
         inside.push_back(contacts_at.at(k == 0 ? top
-                                   : k == intervals
-                                       ? end
-                                       : middle + half * std::cos(pi * k / intervals)));
+                                        : k == intervals
+                                            ? end
+                                            : middle + half * std::cos(pi * k / intervals)));
       if (!contacts_at.usable()) break;
       const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
         return k == 0             ? top
@@ -294,10 +307,11 @@ class Load {
     value.with_slip = sum;
   }
 
-  /// −∫K w' dζ = Σ weights × K(places), for K linear between places. w bends at the least
-  /// indentation and at the deepest level that slips, which may lie much closer than two places.
+  /// Weights in −∫K w' dζ = Σ weights × K(positions), for K linear between the positions. w has
+  /// kinks at the smallest indentation and at the deepest spring that slips; their distance may be
+  /// much smaller than that of two positions.
   Eigen::VectorXd weights_of_springs(const Eigen::VectorXd& indices, double least,
-                                    const auto& loss) const {
+                                     const auto& loss) const {
     const auto integral = [&](double from, double to) {
       return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
     };
@@ -316,8 +330,8 @@ class Load {
     return weights;
   }
 
-  /// Weights of K from those of K_t. Below the contacts that ρ is known of it goes on as on the
-  /// curve; flat: it does not.
+  /// Converts weights of K_t to weights of K by the ratio ρ = K_t/((G*/E*)K). Below the forces of
+  /// `ratio`, ρ changes as on the curve, or stays constant if follow_curve is false.
   Eigen::VectorXd tangential(const Eigen::VectorXd& weights, const Eigen::VectorXd& indices,
                              const KrigedStiffness& kriged, const StiffnessRatio& ratio,
                              bool follow_curve = true) const {
@@ -329,7 +343,7 @@ class Load {
     });
   }
 
-  /// Linear in ln F between loads.
+  /// ρ of the curve at a force, linear in ln F between loads.
   double ratio_of_curve(double force) const {
     if (of_curve_.empty()) return 0;
     const auto above =
@@ -341,8 +355,8 @@ class Load {
                      std::log(force / below->force) / std::log(above->force / below->force));
   }
 
-  /// Indentations at which K is kriged: at equal angles of the window and of the oscillation, which
-  /// starts where K is most uncertain.
+  /// Indentations at which K is predicted, at equal angles of the range of contacts and of the
+  /// oscillation. They are dense at the ends of the oscillation, where K is most uncertain.
   Eigen::VectorXd indices(double center) const {
     constexpr int parts = 64;
     std::vector<double> all;
@@ -372,7 +386,7 @@ class Load {
     return value;
   }
 
-  /// The mean indentation of the oscillation.
+  /// The mean indentation of the oscillation, m. NaN if the contacts do not cover the oscillation.
   double mean_position(const KrigedStiffness& kriged, double center) const {
     if (options_.hold == Hold::indentation || options_.amplitude == Amplitude::small) return center;
     constexpr int phases = 64;
@@ -392,7 +406,7 @@ class Load {
                                                                           : Loss::unknown;
   }
 
-  /// W = Σ weights × K(places).
+  /// Weights for which W = Σ weights × K(positions).
   Eigen::VectorXd weights_of_work(const KrigedStiffness& kriged, const StiffnessRatio& ratio,
                                   double mean) const {
     const auto tangential = [&](double indentation) -> Eigen::VectorXd {
@@ -400,15 +414,15 @@ class Load {
              kriged.weights_at(indentation);
     };
     if (options_.amplitude == Amplitude::small) {
-      // The slope of K over a part of the oscillation: F'' at a point has no limit, since every
-      // spot that touches there makes a pole.
+      // The small-amplitude loss needs the slope F'' of K. Each contact patch gives F'' a pole
+      // where it touches, so the mean slope over a quarter of the oscillation is used.
       const double part = amplitude_ / 4;
       const double of_curvature = std::visit(
           [](const auto& m) { return closed_form::work_per_cycle(1.0, 1.0, m); }, motion_);
       return of_curvature / (2 * part) * (tangential(mean + part) - tangential(mean - part));
     }
     static const std::vector<detail::Node> nodes = detail::gauss_nodes(96);
-    // W is linear in K_t at the nodes and at the end.
+    // W is a linear functional of K_t at the nodes of the phase and at the smallest indentation.
     Eigen::VectorXd weights = detail::loss(
                                   motion_, nodes, [](std::size_t) { return 0.0; }, 1.0) *
                               tangential(mean - amplitude_);
@@ -425,14 +439,18 @@ class Load {
   const ForceSample sample_;
   StiffnessRatio ratio_;
   const double amplitude_;
-  double half_ = 0;  // of the window
+  double half_ = 0;  // half the range of indentations of the contacts, m
   int intervals_ = 4;
-  double interval_error_ = 0, interval_error_with_slip_ = 0;  // J
+  // Errors of the loss by the number of intervals, J.
+  double interval_error_ = 0, interval_error_with_slip_ = 0;
   std::optional<LossOfSpring> slip_ = {};
   std::vector<StiffnessRatio::Point> of_curve_ = {};
-  std::vector<double> pieces_ = {};  // below the mean indentation, their lower ends
-  bool shallow_ = false;             // levels below the window slip only next to it
-  bool joined_ = false;              // the first of them with the window
+  // Lower end of each piece below the oscillation, as depth below the mean indentation.
+  std::vector<double> pieces_ = {};
+  // Springs slip so little below the oscillation that no piece is needed.
+  bool shallow_ = false;
+  // The first piece is kriged together with the range of the oscillation.
+  bool joined_ = false;
   VarianceScales scales_;
   std::vector<GridValue> values_;
 };
@@ -449,11 +467,12 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   SurfaceDamping result;
   const auto& values = load.values();
   if (values.empty() || !load.usable()) return result;
-  const std::size_t own = options.coarsen ? 1 : 0;  // place of the cells as they are
+  // Index in `values` of the grid with the given cells.
+  const std::size_t own = options.coarsen ? 1 : 0;
   const std::size_t at = options.keep_cells ? std::min(own, values.size() - 1) : values.size() - 1;
   const GridValue& value = values[at];
-  // K_t grows with the indentation, so that no cycle has a negative loss: where the contacts give
-  // one, they did not resolve it. (A loss with slip that is not asked for is NaN.)
+  // K_t grows with the indentation, so W cannot be negative; if it is, the contacts did not resolve
+  // the cycle. (A loss with slip that was not requested is NaN and passes.)
   if (value.work < 0 || value.with_slip.work < 0) return result;
   result.converged = true;
   result.stiffness_ratio = load.stiffness_ratio();
@@ -474,7 +493,8 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
     result.error = budget_of(described, load.interval_error_with_slip());
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
-  // Forces converge at second order: of a halving a third remains on the finer cells.
+  // The error by the cells is of second order: after halving the cells, a third of the change
+  // remains on the finer grid and 4/3 on the coarser one.
   const double part = value.points < other.points ? 4.0 / 3 : 1.0 / 3;
   result.error_without_slip.cells = part * std::abs(value.work - other.work);
   const KrigedWork& other_described = no_slip ? other : other.with_slip;
@@ -482,13 +502,15 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   return result;
 }
 
-/// If a side has an odd number n of points, (n + 1)/2 share its length: slopes grow by 1/n, which
-/// counts as an error of the cells.
+/// A surface of every second point in both directions. If a side has an odd number n of points, (n
+/// + 1)/2 points share its length; the slopes are then wrong by 1/n, which counts as an error by
+/// the cells.
 Surface every_second(const Surface& surface) {
   Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.communicator};
   coarse.grid.nx = (surface.grid.nx + 1) / 2;
   coarse.grid.ny = (surface.grid.ny + 1) / 2;
-  // Each process refines its own rows, which are not those that it has of the coarse grid.
+  // Each process takes every second of its own rows; then the rows move to the processes to which
+  // the coarse grid assigns them.
   const RowPartition fine = surface.partition(), rows = coarse.partition();
   std::vector<Index> begins;
   for (int rank = 0; rank < surface.communicator.size(); ++rank)
@@ -509,7 +531,8 @@ Surface every_second(const Surface& surface) {
   return coarse;
 }
 
-/// 1 inside, from 0 to 1 over a sixteenth at either end.
+/// Window function along one side: 1 inside, falling to 0 over a sixteenth of the side at both
+/// ends.
 Eigen::ArrayXd taper(Index count) {
   const double width = static_cast<double>(count) / 16;
   return Eigen::ArrayXd::NullaryExpr(count, [&](Index k) {
@@ -528,16 +551,17 @@ Surface windowed(Surface surface) {
 }
 
 void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
-  require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
+  require(!curve.samples.empty(), "curve", 0, "loads given; compute at least one");
   for (const auto& [column, name] : {std::pair{&ForceSample::force, "force"},
                                      {&ForceSample::normal_stiffness, "normal_stiffness"}})
     require_that(std::ranges::any_of(
                      curve.samples, [&](double value) { return std::isfinite(value); }, column),
                  "curve",
                  std::string("has no ") + name +
-                     ", which says how far the oscillation reaches; sweep the surface with "
+                     ", from which the range of the oscillation follows; compute the curve with "
                      "`stiffness`");
-  require(allowed_intervals(options.intervals), "intervals", options.intervals, "must be 4, 8, 16 or 32");
+  require(allowed_intervals(options.intervals), "intervals", options.intervals,
+          "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");
   for (const auto& [value, field] :
@@ -548,17 +572,18 @@ void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
           options.relative_error, "must lie between 0 and 1");
 }
 
-/// The contacts of some loads on one grid, side by side.
+/// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
+/// processes.
 void solve_on(const Surface& fine, const std::vector<Load*>& open,
               const SurfaceDampingOptions& options) {
   const Communicator& communicator = fine.communicator;
-  // Two loads of a surface that is spread would send through each other.
+  // On a surface spread over processes, the messages of two simultaneous loads would be confused.
   const int wanted =
       communicator.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
   require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
                  wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
                  communicator);
-  std::atomic<double> residual = 0;  // of the contact that was heard of last
+  std::atomic<double> residual = 0;  // residual of the contact that last reported its progress
   detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
                            const int done = loop.finished();
                            return !options.on_progress ||
@@ -570,7 +595,7 @@ void solve_on(const Surface& fine, const std::vector<Load*>& open,
     residual = report.residual;
     return loop.going_on();
   };
-  // The highest loads take longest and go first.
+  // The highest loads take longest, so they are solved first.
   loop.run(static_cast<Index>(open.size()), [&](Index turn) {
     open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
   });

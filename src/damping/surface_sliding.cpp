@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steady sliding of a surface from contacts inside the oscillation, with errors.
+// Steady sliding of a surface from contacts solved inside the oscillation, with errors.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -18,20 +18,23 @@ namespace salebra {
 namespace {
 
 using detail::KrigedStiffness;
-using detail::SurfaceContacts;
 using detail::StiffnessRatio;
 using detail::StiffnessSample;
+using detail::SurfaceContacts;
 using detail::VarianceScales;
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 
-// Intervals between contacts on the cells as they are, of which half are taken on smaller ones.
+// Number of intervals between the contacts on the given cells; on smaller cells half as many are
+// used.
 constexpr int own_intervals = 8;
-// Indentations between which K is linear: intervals of the angle, among them those of the contacts.
+// K is taken as linear between the ends of this many intervals of the indentation, which are equal
+// in the phase angle. Each contact lies at an end of one of these intervals.
 constexpr int linear_parts = 32;
 
-/// A contact whose K is linear between indentations, about a known force in their middle.
+/// A contact law with K linear between given indentations. `force` is F at the indentation in the
+/// middle of the list.
 class StiffnessLaw final : public ContactLaw {
  public:
   StiffnessLaw(VectorXd positions, VectorXd stiffness, double force, const StiffnessRatio& ratio,
@@ -94,10 +97,11 @@ class StiffnessLaw final : public ContactLaw {
   StiffnessRatio ratio_;
 };
 
-// relaxation_damping, the last of them, is not from here.
+// The numbers of SteadySliding whose errors are computed here. The last entry of sliding_errors is
+// left out: relaxation_damping and its error come from surface_damping().
 constexpr auto numbers = std::span(sliding_errors).first(std::size(sliding_errors) - 1);
 
-/// All of them of all velocities, in one list.
+/// These numbers for all velocities, in one list.
 ArrayXd numbers_of(const std::vector<SteadySliding>& states) {
   std::vector<double> all;
   for (const SteadySliding& state : states)
@@ -105,7 +109,7 @@ ArrayXd numbers_of(const std::vector<SteadySliding>& states) {
   return Eigen::Map<const ArrayXd>(all.data(), static_cast<Index>(all.size()));
 }
 
-/// What one grid says, and the squares of the errors of its numbers.
+/// Results of one grid. numbers: as numbers_of() lists them; squares: squares of their errors.
 struct OnGrid {
   std::vector<SteadySliding> states;
   ArrayXd numbers, squares;
@@ -122,17 +126,20 @@ class SurfaceSlidingRun {
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
     NormalContactOptions contact;
     contact.on_progress = progress;
-    // Forces differ by F·uK/F over the window, and their differences by its square.
+    // The force changes by about F(KH/F) over half the range H of the contacts, and its second
+    // difference is smaller by the same factor.
     contact.tolerance =
         std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
     SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
     const double center = contacts_at.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
-        first ? ratio_ : ratio_.scaled(contacts_at.ratio_at(center, material_).ratio / ratio_.middle());
+        first ? ratio_
+              : ratio_.scaled(contacts_at.ratio_at(center, material_).ratio / ratio_.middle());
     std::vector<StiffnessSample> contacts;
     for (int k = 0; k <= count; ++k)
       contacts.push_back(contacts_at.at(center + half_ * std::cos(pi * k / count)));
-    if (!contacts_at.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
+    if (!contacts_at.usable())
+      throw NotConverged("sliding: a contact of the surface did not converge");
     const VectorXd positions = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
     const KrigedStiffness kriged(contacts, positions);
     scales_.add(kriged.log_likelihood());
@@ -146,9 +153,11 @@ class SurfaceSlidingRun {
     };
     grid.squares =
         change(stiffness, ratio.straight()).square() +
-        change(stiffness_at(KrigedStiffness(detail::every_other(contacts), positions), positions), ratio)
+        change(stiffness_at(KrigedStiffness(detail::every_other(contacts), positions), positions),
+               ratio)
             .square();
-    // The numbers are nearly linear in K, of which the kriging knows the variance.
+    // The numbers are nearly linear in K, so their variance follows from the covariance of K that
+    // the kriging gives.
     const double step = 1e-3 * stiffness.maxCoeff();
     Eigen::MatrixXd weights(grid.numbers.size(), positions.size());
     for (Index i = 0; i < positions.size(); ++i) {
@@ -183,7 +192,7 @@ class SurfaceSlidingRun {
   const ForceSample& load_;
   StiffnessRatio ratio_;
   const SurfaceSlidingMotion& motion_;
-  double half_ = 0;  // of the window
+  double half_ = 0;  // half the range of indentations of the contacts, m
   VarianceScales scales_;
 };
 
@@ -192,19 +201,20 @@ class SurfaceSlidingRun {
 std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
     const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,
     const SurfaceSlidingMotion& motion, const Progress& on_progress) {
-  require(load < curve.samples.size(), "load", load, "is none of the curve");
+  require(load < curve.samples.size(), "load", load, "is not in the curve");
   require_positive(motion.normal.normal_amplitude, "normal_amplitude");
   const ForceSample& sample = curve.samples[load];
   const StiffnessRatio ratio = detail::ratio_on(curve, load, material.modulus_ratio());
   SurfaceSlidingRun run(material, sample, ratio, motion);
   const OnGrid own = run.on(surface, own_intervals, true, on_progress);
   OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
-  // Forces converge at second order: of a halving a third remains on the finer cells.
+  // The error by the cells is of second order: a third of the change remains on the finer cells.
   const ArrayXd errors =
       (fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16).sqrt();
 
   SurfaceDampingOptions options{.hold = motion.hold, .on_progress = on_progress};
-  ForceCurve about = curve;  // the ratio of stiffnesses comes from contacts inside the oscillation
+  // The ratio K_t/K of this curve comes from contacts inside the oscillation.
+  ForceCurve about = curve;
   about.samples = {sample};
   const Drag drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency};
   const SurfaceDamping stuck = surface_damping(surface, material, drag, about, options)[0];

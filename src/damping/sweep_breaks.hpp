@@ -6,9 +6,10 @@
 
 namespace salebra::detail {
 
-/// [low, the indentations between at which the law is not smooth, high], increasing: its own break
-/// points, and first touch where F becomes 0 within the sweep. More than a few hundred break points
-/// are left out: between so many a law is as good as smooth.
+/// Returns, in increasing order, low, the indentations between low and high at which the law is not
+/// smooth, and high. These are the break points of the law, and first touch if F becomes 0 between
+/// low and high. If there are more than a few hundred break points, none is returned: such a law is
+/// as good as smooth.
 std::vector<double> sweep_breaks(const ContactLaw& law, double low, double high);
 
 }  // namespace salebra::detail

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tangential force and loss of a contact law along any path, from the turning points it remembers.
+// Tangential force and loss of a contact law along any path of indentation and displacement. The
+// law is a stack of springs; a spring of depth ζ touches at the indentation ζ, and is then anchored
+// at the position x0. The state is x0 as a piecewise linear function of ζ.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -8,23 +10,23 @@
 #include <sstream>
 #include <vector>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "stiffness_table.hpp"
 
 namespace salebra {
 namespace {
 
-// Stiffness, relative to the whole contact, below which levels may be left out.
+// Springs may be left out if their stiffness is below this fraction of that of the whole contact.
 constexpr double negligible = 1e-15;
 
 using Moments = detail::StiffnessTable::Moments;
 
-// A quantity that is linear in the level ζ between two ends of a range.
+// The values at the lower and the upper end of a range of depths ζ, of a quantity linear in ζ.
 struct Linear {
   double low, high;
 };
 
-// ∫K_t' v w dζ over a range of the given width.
+// ∫K_t' v w dζ over a range of depths of the given width, for v and w linear in ζ.
 double integral(const Moments& moments, double width, Linear v, Linear w) {
   if (!(width > 0)) return 0;
   const double v_slope = (v.high - v.low) / width, w_slope = (w.high - w.low) / width;
@@ -35,13 +37,14 @@ double integral(const Moments& moments, double width, Linear v, Linear w) {
 }  // namespace
 
 struct TangentialContact::State {
-  // x0 between the piece below and `top`, and the integrals over all levels up to `top`.
+  // A range of depths, from `top` of the piece below to `top`. anchor: x0 at the lower and the
+  // upper end.
   struct Piece {
     double top;
     Linear anchor;
-    double first_integral;   // ∫K_t' x0 dζ
-    double second_integral;  // ∫K_t' x0² dζ
-    double deviation;        // bound of what merging has changed in x0
+    double first_integral;   // ∫K_t' x0 dζ over all depths up to `top`
+    double second_integral;  // ∫K_t' x0² dζ over all depths up to `top`
+    double deviation;        // bound of the change of x0 by merging pieces
   };
 
   State(const ContactLaw& law, double low, double high, double lowest_of_motion,
@@ -54,15 +57,16 @@ struct TangentialContact::State {
         slope_limit(given.friction_coefficient / stiffness_ratio),
         merge_tolerance(given.merge_tolerance),
         slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {
-    // One spring in place of those below the table: it carries their normal force.
+    // One spring (the core) replaces all springs below the table and carries their normal force.
     core_depth = low;
     if (table->core() > 0) core_depth -= stiffness_ratio * law.force(low) / table->core();
   }
 
   double within_range(double spring_depth) const {
     if (parts_below && spring_depth < permanent_below) return spring_depth;
-    require(spring_depth >= permanent_below - slack && spring_depth <= table->highest() + slack, "indentation",
-            spring_depth, "m leaves the range from lowest to highest that the contact was made for");
+    require(spring_depth >= permanent_below - slack && spring_depth <= table->highest() + slack,
+            "indentation", spring_depth,
+            "m lies outside the range from lowest to highest for which the contact was made");
     return std::clamp(spring_depth, permanent_below, table->highest());
   }
 
@@ -72,7 +76,7 @@ struct TangentialContact::State {
   double anchor_at(double spring_depth) const {
     const Piece& piece = pieces.back();
     const double low = bottom();
-    // Exact at both ends, so that pieces join without a step.
+    // Returns the exact end values, so that adjacent pieces meet without a step.
     if (spring_depth >= piece.top) return piece.anchor.high;
     if (spring_depth <= low) return piece.anchor.low;
     return piece.anchor.low +
@@ -90,8 +94,8 @@ struct TangentialContact::State {
                       (empty ? 0 : pieces.back().second_integral) + second, deviation});
   }
 
-  // Takes levels >= `level` off the topmost piece, or all of it; `moments` are those of what is
-  // taken off.
+  // Removes the depths above spring_depth from the topmost piece, or the whole piece if it lies
+  // above. moments: of K_t' over the removed range; removed: x0 in this range.
   void cut(double spring_depth, const Moments& moments, Linear removed) {
     Piece& piece = pieces.back();
     const double low = bottom(), width = piece.top - spring_depth;
@@ -105,7 +109,8 @@ struct TangentialContact::State {
     piece.top = spring_depth;
   }
 
-  // ∫K_t' v w dζ over [low, high] into the two sums of dissipated energy.
+  // Adds ∫K_t' v w dζ over [low, high] to the dissipated energy, and the part below permanent_below
+  // to that of springs that never open.
   void lose(double low, double high, const Moments& moments, Linear v, Linear w) {
     const double loss = integral(moments, high - low, v, w);
     dissipated += loss;
@@ -120,13 +125,16 @@ struct TangentialContact::State {
                           {w.low, w.low + fraction * (w.high - w.low)});
   }
 
-  // Lets go of the levels above new_indentation. A stretch s at the end is worth ½K_t's² without
-  // slip; with finite friction the level has slipped before, while the normal load left it and the
-  // motion pulled it, and the first share of that work remains.
+  // Releases the springs whose depth ζ exceeds new_indentation; they separate in this step. In full
+  // stick a spring with the stretch s at separation loses ½K_t' s². With finite friction it has
+  // slipped before, both because its stretch limit fell and because the body moved. The loss by
+  // release is then ½K_t' s² times the share of the falling limit in this slip.
   void release(double new_indentation, double new_x) {
     const double descent = indentation - new_indentation, travel = new_x - x;
-    auto position = [&](double spring_depth) { return x + (indentation - spring_depth) / descent * travel; };
-    auto partition = [&](double stretch) {
+    auto position = [&](double spring_depth) {
+      return x + (indentation - spring_depth) / descent * travel;
+    };
+    auto share = [&](double stretch) {
       if (std::isinf(slope_limit)) return 1.0;
       const double retreat = slope_limit * descent;
       const double pull = stretch > 0 ? retreat + travel : retreat - travel;
@@ -170,10 +178,10 @@ struct TangentialContact::State {
     push(new_indentation, {x, new_x});
   }
 
-  // Forward (side = 1) slip: x0 is raised to x − slope_limit(δ − ζ) where it lies below. Backward
-  // slip is its mirror image. The anchor of a level moves with the bound from when they meet to the
-  // end of the step, during which the stretch is slope_limit(δ(t) − ζ) and δ changes in proportion
-  // to the bound.
+  // Slip in one direction. Forward slip (side = 1) raises the anchor x0 to the bound x −
+  // slope_limit(δ − ζ) where x0 is lower. Backward slip (side = −1) is its mirror image. From the
+  // time in the step at which the bound reaches x0, the anchor follows the bound; until the end of
+  // the step the stretch is slope_limit(δ(t) − ζ), where δ changes in proportion to the bound.
   void slip(double side, double new_indentation, double new_x) {
     const double climb = new_indentation - indentation;
     const double advance = side * (new_x - x) - slope_limit * climb;
@@ -188,7 +196,7 @@ struct TangentialContact::State {
       double low = bottom();
       Linear removed{anchor_at(low), anchor_at(high)};
       Linear slipped{bound(low) - side * removed.low, bound(high) - side * removed.high};
-      // At the top level both are x up to round-off.
+      // At the top of the contact the anchor and the bound are both x, up to round-off.
       if (slipped.low <= 0 && slipped.high <= 0) break;
       if (slipped.low < 0) {
         low += (high - low) * slipped.low / (slipped.low - slipped.high);
@@ -211,14 +219,16 @@ struct TangentialContact::State {
     push(new_indentation, {side * reach_bound, new_x});
   }
 
-  // What lies below the law's range slips as one where all of it slides the same way.
+  // The core, which represents the springs below the table, slips as one spring. This is allowed
+  // only if all its springs already slide in the same direction; otherwise it throws.
   void slip_core(double side, double new_indentation, double new_anchor, double climb,
                  double advance) {
     if (!(table->core() > negligible * table->at(table->highest()))) return;
     if (side != carried)
-      throw InvalidInput("friction",
-                         "slip reaches indentation levels below the range of the law; raise the "
-                         "friction, reduce the motion, or give a curve from lower forces on");
+      throw InvalidInput(
+          "friction_coefficient",
+          "slip reaches indentations below the range of the law; raise the friction, reduce the "
+          "motion, or give a curve that begins at lower forces");
     const double slipped = side * (new_anchor - core_anchor);
     if (!(slipped > 0)) return;
     const double stretch = slope_limit * (new_indentation - core_depth);
@@ -229,7 +239,8 @@ struct TangentialContact::State {
     core_anchor = new_anchor;
   }
 
-  // Up to a constant: the stretches of what core_anchor stands for differ.
+  // Stored energy up to an unknown constant: the springs that the core represents have different
+  // stretches.
   double energy() const {
     const double first =
         (pieces.empty() ? 0 : pieces.back().first_integral) + table->core() * core_anchor;
@@ -245,7 +256,7 @@ struct TangentialContact::State {
     dissipated = permanent = core_anchor = carried = 0;
   }
 
-  // Every level at its limit, the core too.
+  // Puts every spring, the core included, at its stretch limit in the given direction.
   void slide(double new_indentation, double new_x, int direction) {
     begin(new_indentation, new_x);
     const auto anchor = [&](double spring_depth) {
@@ -259,7 +270,7 @@ struct TangentialContact::State {
 
   void move(double new_indentation, double new_x) {
     if (indentation < table->lowest() && new_indentation > table->lowest()) {
-      // Touches on the way.
+      // First touch occurs during the step; the path continues from there.
       x += (table->lowest() - indentation) / (new_indentation - indentation) * (new_x - x);
       indentation = table->lowest();
     }
@@ -277,21 +288,22 @@ struct TangentialContact::State {
     return table->core() * (x - core_anchor) + table->at(indentation) * x - anchored;
   }
 
-  std::shared_ptr<const detail::StiffnessTable> table;  // the same for all copies of a state
+  // Stiffness table, shared by all copies of a state.
+  std::shared_ptr<const detail::StiffnessTable> table;
   double permanent_below;
   bool parts_below;
   double permanent_stiffness, slope_limit, merge_tolerance, slack;
   std::vector<Piece> pieces;
-  double indentation = 0, x = 0, origin = 0;  // x counts from the origin
+  double indentation = 0, x = 0, origin = 0;  // x is measured from `origin`
   double dissipated = 0, permanent = 0, energy_at_start = 0;
   double core_depth = 0, core_anchor = 0;
-  double carried = 0;  // the direction in which the core slides, ±1; 0: it does not
+  double carried = 0;  // direction in which all springs of the core slide, ±1; 0: they do not
 };
 
 TangentialContact::TangentialContact(const ContactLaw& law, double lowest, double highest,
                                      const TangentialContactOptions& options) {
   require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "indentation",
-          lowest, "and the highest of the motion must be finite and in this order");
+          lowest, "and the highest indentation of the motion must be finite and in this order");
   require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
   require(options.merge_tolerance >= 0, "merge_tolerance", options.merge_tolerance, "must be >= 0");
@@ -301,7 +313,7 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
   if (!(lowest >= law_low && highest <= law_high)) {
     std::ostringstream constraint;
     constraint.precision(9);
-    constraint << "m to " << highest << " m is where the motion goes, but the law covers ["
+    constraint << "m to " << highest << " m is the range of the motion, but the law covers ["
                << law_low << ", " << law_high << "] m; reduce the motion"
                << (std::isfinite(law_low) ? ", or give a curve that covers it" : "");
     require(false, "indentation", lowest, constraint.str());
@@ -309,16 +321,18 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
   const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));
   double low = lowest;
   if (std::isfinite(options.friction_coefficient)) {
-    require(options.tangential_range > 0 || options.friction_coefficient == 0, "tangential_range",
-            options.tangential_range,
-            "m must be > 0 where friction is finite: the largest distance of two positions x");
-    // A level deeper than this is never stretched to its limit.
+    require(
+        options.tangential_range > 0 || options.friction_coefficient == 0, "tangential_range",
+        options.tangential_range,
+        "m must be > 0 if friction is finite; it is the largest distance between two positions x");
+    // A spring this far below the lowest indentation is never stretched to its limit.
     const double reach = options.friction_coefficient > 0 ? 1.001 * options.tangential_range *
                                                                 ratio / options.friction_coefficient
                                                           : std::numeric_limits<double>::infinity();
     low = std::max(lowest - reach, law_low);
-    // Below first touch there is nothing; without friction, or with little, the reach has no other
-    // bound.
+    // Ends the table at first touch, since no springs lie below it, or, for a law without first
+    // touch, where K_t is negligible. With little or no friction nothing else bounds the depth of
+    // slip.
     if (!(law.force(low) > 0) || !std::isfinite(low)) {
       double open = low, closed = highest;
       if (!std::isfinite(open))
@@ -385,7 +399,8 @@ void TangentialContact::move_to_force(double indentation, double force) {
     constraint << "N must be below " << limit << " N, at which the contact slides";
     require(std::abs(force) < limit || force == 0, "tangential_force", force, constraint.str());
   }
-  // F_x grows with x: a bracket, and then its zero.
+  // The tangential force grows with x. Finds a bracket of the required force, and then the x that
+  // gives it.
   const auto excess = [&](double x) {
     State moved = s;
     moved.move(indentation, x);
@@ -394,7 +409,7 @@ void TangentialContact::move_to_force(double indentation, double force) {
   const double here = excess(s.x);
   if (here == 0) return s.move(indentation, s.x);
   const double stiffness = s.table->core() + s.table->at(indentation);
-  require(stiffness > 0, "tangential_force", force, "acts where nothing touches");
+  require(stiffness > 0, "tangential_force", force, "N acts without contact");
   double step = std::max(std::abs(here) / stiffness, 1e-12 * std::abs(s.x)), far = s.x;
   double near = s.x;
   for (int doubling = 0; doubling < 60; ++doubling, step *= 2) {
@@ -405,7 +420,8 @@ void TangentialContact::move_to_force(double indentation, double force) {
       return;
     }
   }
-  require(false, "tangential_force", force, "N is not reached on the way that can be computed");
+  require(false, "tangential_force", force,
+          "N is not reached within the displacements that can be computed");
 }
 
 double TangentialContact::displacement() const { return state_->x + state_->origin; }

@@ -16,7 +16,7 @@ namespace {
 
 using detail::unknown;
 
-// Time means over one period of quantities that are straight between the samples.
+// Mean over one period of the product of two quantities, both linear in time between the samples.
 double mean_product(const SampledMotion& path, const std::vector<double>& a,
                     const std::vector<double>& b) {
   double sum = 0;
@@ -28,7 +28,7 @@ double mean_product(const SampledMotion& path, const std::vector<double>& a,
   return sum / path.period();
 }
 
-// A direction of the motion, and the force in it.
+// One direction of the motion, with the displacement and the force in this direction.
 struct Direction {
   const std::vector<double>&displacement, &force;
 };
@@ -58,14 +58,16 @@ void set_means(TrajectoryDamping& result, const SampledMotion& path,
       result.work_per_cycle / (2 * std::numbers::pi * result.storage_stiffness * variance);
 }
 
-// A closed path may end where it began only to round-off.
+// Returns whether the displacement changes over a period by more than the round-off of a closed
+// path.
 bool moves_on(const SampledMotion& path) {
   const auto [low, high] = std::ranges::minmax(path.displacement);
   return std::abs(path.drift()) > 1e-9 * (high - low);
 }
 
-/// force, lost: of the period that was followed from the sample `first` on, at its samples. Those
-/// before `first` came last.
+/// Sets the force and the cumulative loss over the period of the path from `force` and `lost`,
+/// which hold values at its samples. The period was followed from the sample `first` on, so the
+/// samples before `first` came last.
 void set_series(TrajectoryDamping& result, const std::vector<double>& force,
                 const std::vector<double>& lost, std::size_t first) {
   result.tangential_force = force;
@@ -88,9 +90,10 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   const bool stick = std::isinf(options.friction_coefficient);
   const bool drifts = moves_on(path);
   const double drift = drifts ? path.drift() : 0;
-  // A spring between two limits follows a periodic motion from its second period on. With drift it
-  // has to be at the limit of its stretch somewhere in each period: one that begins at that limit
-  // is never behind the periodic state and joins it there.
+  // Number of periods until the state repeats. A spring with a stretch limit follows a closed path
+  // periodically from its second period on. On a path with drift it reaches its limit in each
+  // period. A spring that starts at its limit never lags behind the periodic state, and joins it
+  // when the periodic state reaches the limit.
   const bool slides = drifts && !stick;
   const int periods = stick ? 1 : 2;
 
@@ -102,12 +105,13 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
       {.friction_coefficient = options.friction_coefficient,
        .tangential_range = slides ? std::numeric_limits<double>::infinity() : high_x - low_x});
 
-  // From the lowest point, where every level that ever opens is open: no history is missing.
+  // Starts at the smallest indentation of the path, where every spring that opens during the path
+  // is open. The earlier history then has no effect.
   TrajectoryDamping result;
   if (slides) {
     contact.slide(path.indentation[first], path.displacement[first], drift > 0 ? 1 : -1);
   } else {
-    // Springs that never part or slip are free of stress in the middle of a periodic motion.
+    // Springs that never separate or slip are free of stress in the middle of a closed path.
     const double rest = drifts ? path.displacement[first] : 0.5 * (low_x + high_x);
     contact.start(path.indentation[first], rest);
     contact.move_to(path.indentation[first], path.displacement[first]);
@@ -129,7 +133,8 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
         throw Interrupted("trajectory: interrupted");
       const std::size_t at = (first + step) % count;
       force[at] = contact.tangential_force();
-      // In full stick the permanent levels are one spring that a drift stretches for ever.
+      // In full stick, drift stretches the springs that never open without limit. Their force due
+      // to the drift is left out.
       if (drifts && stick) force[at] -= contact.permanent_stiffness() * (x - origin);
       lost[at] = contact.dissipated() - lost_before;
       const bool wrapped = first + step >= count;

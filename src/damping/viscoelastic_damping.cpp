@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Losses of a viscoelastic contact in its periodic state: of the material, and of springs that are
-// let go.
+// Losses of a viscoelastic contact in its periodic state: in the material, and by springs that
+// separate while they are stretched.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,10 +10,10 @@
 #include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "base/loop_progress.hpp"
+#include "base/numerics/dense_systems.hpp"
 #include "base/stop_check.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
 #include "max_motion.hpp"
-#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -23,7 +23,7 @@ using detail::MaxwellSpring;
 using detail::NormalSpring;
 using detail::SpringPath;
 
-// A share of a step, in contact or above it.
+// A fraction of a step during which a spring stays closed or stays open.
 struct LossPart {
   bool closed;
   std::size_t step;
@@ -34,15 +34,16 @@ Eigen::MatrixXd decay_matrix(const MaxwellSpring& spring, double duration) {
   return spring.stretching(duration).decay.matrix().asDiagonal();
 }
 
-// One period of a spring in the normal direction, from given anchors.
+// One period of a spring in the normal direction. It starts with given anchors, the positions of
+// the springs of its Maxwell branches.
 struct NormalPeriod {
   Branches end;
-  Eigen::MatrixXd derivative;  // of `end` by the anchors at the start
+  Eigen::MatrixXd derivative;  // derivative of `end` with respect to the anchors at the start
   double work = 0;
   bool opens = false, closes = false;
-  bool converged = false;  // whether it ends where it began
+  bool converged = false;  // whether the period ends with the anchors with which it began
   std::vector<LossPart> parts;
-  std::vector<double> force;  // at the samples
+  std::vector<double> force;  // at the samples of the path
 };
 
 NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, double spring_depth,
@@ -52,8 +53,8 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
   NormalSpring state(spring, spring_depth);
   state.start(path.indentation[0], start);
   period.force.push_back(state.force(path.indentation[0]));
-  // The anchors' velocity is continuous at touch and release: that these move changes nothing at
-  // first order.
+  // The derivative ignores that the times of touch and release depend on the anchors: the velocity
+  // of the anchors is continuous there, so a change of these times has no effect at first order.
   double stay = 0;
   bool stays_closed = state.closed();
   const auto end_of_stay = [&] {
@@ -78,8 +79,9 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
   return period;
 }
 
-// Newton's method for the anchors that a period returns to. They are a convex and rising function
-// of those at the start, so that it converges monotonically after its first step.
+// Finds the anchors that repeat after a period, by Newton's method. The anchors at the end of a
+// period are a convex, increasing function of those at its start, so after the first step the
+// method approaches the solution from one side.
 NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, double spring_depth,
                       double range, Branches& start, LoopProgress& progress) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
@@ -92,8 +94,8 @@ NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, doubl
     const Branches change =
         detail::least_squares(one - period.derivative, (period.end - start).matrix()).array();
     const double distance = change.abs().maxCoeff();
-    // Round-off of one period, over the share of a branch that it decays by, may be all that is
-    // left.
+    // The remaining change may be round-off of one period, divided by the fraction by which a
+    // branch decays in a period. A change that no longer shrinks therefore counts as converged.
     period.converged =
         distance <= 1e-11 * range || (distance <= 1e-5 * range && distance >= 0.5 * last);
     if (period.converged) break;
@@ -103,11 +105,11 @@ NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, doubl
   return period;
 }
 
-// A spring that never leaves contact: periodic up to a drift.
+// One period of a spring that never leaves contact; its anchors are periodic apart from a drift.
 struct PermanentPeriod {
   Branches start;
-  double work = 0;                   // of the branches
-  std::vector<double> branch_force;  // at the samples
+  double work = 0;                   // work done on the Maxwell branches
+  std::vector<double> branch_force;  // at the samples of the path
 };
 
 PermanentPeriod permanent_period(const MaxwellSpring& spring, const SpringPath& path,
@@ -136,8 +138,9 @@ struct TangentialLoss {
   double material = 0, relaxation = 0;
 };
 
-// A spring whose stays in contact are known, so that a period is an affine map of its state: w,
-// then the branches.
+// Tangential motion of a spring whose times in contact are known. One period is then an affine map
+// of the state (w, branches): w is the stretch of the spring, `branches` those of its Maxwell
+// branches.
 class OpeningSpring {
  public:
   OpeningSpring(const MaxwellSpring& spring, const SpringPath& path,
@@ -155,7 +158,7 @@ class OpeningSpring {
 
  private:
   bool begins_stay(std::size_t i) const {
-    // The period may begin in the middle of one.
+    // The first part of the period may continue a stay that began in the last part.
     return parts_[i].closed != parts_[i > 0 ? i - 1 : parts_.size() - 1].closed;
   }
   bool ends_stay(std::size_t i) const {
@@ -182,7 +185,8 @@ class OpeningSpring {
       }
       if (begins_stay(i)) {
         lost.relaxation += spring_.energy(w, branches);
-        // The force falls to 0 at once, in the unrelaxed spring.
+        // At separation the force falls to 0 at once, by an elastic jump with the unrelaxed
+        // stiffness.
         const double jump = spring_.force(w, branches) / spring_.unrelaxed_stiffness();
         w -= jump;
         branches -= jump;
@@ -199,7 +203,8 @@ class OpeningSpring {
     return lost;
   }
 
-  // The derivative of the state at the end by that at the start: the same maps without motion.
+  // Derivative of the state at the end of the period with respect to that at its start: the same
+  // maps without the displacement of the body.
   Eigen::MatrixXd derivative() const {
     const Index terms = spring_.terms();
     const Eigen::RowVectorXd ratios = spring_.ratios().matrix().transpose();
@@ -235,7 +240,8 @@ std::vector<double> differences(const std::vector<double>& values) {
   return steps;
 }
 
-/// What follows from the works and the force: means over the period, power, damping constant.
+/// Sets the mean normal force over the period, the loss, the power and the damping constant from
+/// the normal force at the samples and the separate losses.
 void set_means(ViscoelasticDamping& result, const SpringPath& path,
                const std::vector<double>& moves, double period) {
   double square_velocity = 0;
@@ -271,7 +277,7 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   result.max_contact_radius = law.contact_radius(highest);
   const PermanentPeriod normal = permanent_period(spring, path, normal_moves);
   const PermanentPeriod tangential = permanent_period(spring, path, moves);
-  // A spring never leaves while its force stays > 0.
+  // A spring stays in contact for the whole period if its force is always positive.
   double permanent_depth = highest;
   for (std::size_t i = 0; i < samples; ++i)
     permanent_depth = std::min(permanent_depth, trajectory.indentation[i] + normal.branch_force[i]);
@@ -288,8 +294,8 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
 
   const detail::SpringLayout ring(law.profile(), result.min_contact_radius,
                                   result.max_contact_radius, springs);
-  // Each spring starts from the state of the one within it; the first from that of a spring that
-  // never leaves.
+  // The iteration for each spring starts from the result of the next spring inwards, and that of
+  // the innermost from a spring that never leaves contact.
   Branches start = trajectory.indentation.front() - permanent_depth - normal.start;
   LoopProgress progress(on_progress, "viscoelastic", static_cast<Index>(ring.cells.size()));
   for (const detail::SpringLayout::Cell& cell : ring.cells) {

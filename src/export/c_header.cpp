@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact law as a C header without dependencies: the levels of LawSprings, and ContactElement's step.
+// A contact law as a C header without dependencies: the springs of LawSprings, and the step of
+// ContactElement.
 #include "c_header.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@
 namespace salebra {
 namespace {
 
-// What follows the tables. The names begin with that of the header.
+// The code after the tables. All names begin with that of the header.
 constexpr std::string_view program = R"c(#include <math.h>
 #include <stddef.h>
 
@@ -191,7 +192,7 @@ std::string c_header(const LawSprings& springs, const CHeaderOptions& options) {
           "name", name, "must be a name of C: letters, digits and _");
   const double stiffness = options.force_unit / options.length_unit;
   std::string text;
-  // An opening within a comment ends nothing; compilers warn of it.
+  // "/*" within a comment does not end the comment, but compilers warn of it.
   for (const std::string& sentence : options.comment)
     text += detail::comment(sentence, {"  ", {"*/", "/*"}});
   if (!text.empty()) text = "/*" + text.substr(2, text.size() - 3) + " */\n";
@@ -212,8 +213,8 @@ std::string c_header(const LawSprings& springs, const CHeaderOptions& options) {
     sum.push_back(before + k);
   }
   text +=
-      "/* Where each level ends, F and dF/d(indentation) there; the tangential stiffness of each\n"
-      "   level and the indentation at which it acts; of all levels up to it the stiffness and "
+      "/* Where each spring ends, F and dF/d(indentation) there; the tangential stiffness of each\n"
+      "   spring and the indentation at which it acts; of all springs up to it the stiffness and "
       "its\n"
       "   integral over the indentation. */\n";
   text += table("node", springs.nodes(), options.length_unit);

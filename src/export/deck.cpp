@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decks of contact laws: what they hold, in which units, and the sentences of their headers.
+// Decks of contact laws for other programs: which rows they contain, their units, and the sentences
+// at their top.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -22,7 +23,7 @@ namespace {
 using detail::Deck;
 using detail::DeckLaw;
 
-/// Without a table a law has no end: this many times the force of its position.
+/// Range of a law that is not a table, in multiples of the force at the operating point.
 constexpr double lowest_share = 1e-3, highest_share = 10;
 
 void set_range(DeckContact& contact) {
@@ -58,7 +59,7 @@ void set_origin(DeckContact& contact, const ForceCurve& curve) {
   }
 }
 
-/// The middle of the clearances that several contacts have in common, and its rank there.
+/// The range of clearances that the laws of all contacts cover.
 struct Range {
   double far = std::numeric_limits<double>::infinity();
   double close = -std::numeric_limits<double>::infinity();
@@ -75,7 +76,8 @@ std::vector<std::size_t> by_force(const std::vector<DeckContact>& contacts, doub
   return order;
 }
 
-/// The problem about the part.
+/// The same problem for the part: with the curves and laws of its area instead of those of the
+/// sample.
 DeckProblem of_part(DeckProblem problem) {
   const double area = problem.nominal_area;
   if (std::isnan(area)) return problem;
@@ -93,8 +95,9 @@ Range common_range(const DeckProblem& problem) {
   Range range;
   for (const DeckContact& contact : problem.contacts) {
     double lowest = contact.lowest, highest = contact.highest;
-    require_that(!std::isnan(lowest), "indentation",
-                 "not given, but a law without a table is taken from forces about that there");
+    require_that(
+        !std::isnan(lowest), "indentation",
+        "not given, but a law without a table is sampled at forces around the force there");
     if (problem.pressure_window) {
       const double area = contact.nominal_area;
       lowest = contact.law->indentation_of(problem.pressure_window->first * area);
@@ -103,25 +106,27 @@ Range common_range(const DeckProblem& problem) {
       const double most = detail::possible_indentation(*contact.law, rest, highest);
       require(
           !(highest > most), "pressure_window", problem.pressure_window->second,
-          fmt::format("Pa is a pressure that this contact cannot reach; at most {}",
+          fmt::format("Pa cannot be reached by this contact; its largest pressure is {}",
                       format_quantity(contact.law->force(most) / area, Dimension::pressure, 3)));
     }
     range.far = std::min(range.far, contact.clearance_origin - lowest);
     range.close = std::max(range.close, contact.clearance_origin - highest);
   }
   require(range.close < range.far, "pressure_window", problem.contacts.size(),
-          "surfaces have no clearances in common; widen the window");
+          "surfaces have no common clearances; widen the window");
   return range;
 }
 
-/// The greatest convex table below one: rows that stick out upwards lie on the line between their
-/// neighbours. Throws InvalidInput for rows that do not rise, and where a row moves by more than 1 %.
+/// The greatest convex table that nowhere exceeds `pressure`: rows above the line between their
+/// neighbours move onto this line. Throws InvalidInput if the pressure does not increase from row
+/// to row, or if a row moves by more than 1 %. what: name of the table in messages.
 std::vector<double> convex(const std::vector<double>& pressure, const std::string& what) {
   constexpr double most = 0.01;
   std::vector<std::size_t> hull;
   for (std::size_t i = 0; i < pressure.size(); ++i) {
-    require(i == 0 || pressure[i] > pressure[i - 1], "curve", what,
-            "has a pressure that does not grow with approach; remove or smooth the sample");
+    require(
+        i == 0 || pressure[i] > pressure[i - 1], "curve", what,
+        "has a pressure that does not grow as the clearance shrinks; remove or smooth the sample");
     while (hull.size() > 1) {
       const std::size_t b = hull.back(), a = hull[hull.size() - 2];
       if ((pressure[b] - pressure[a]) / double(b - a) <=
@@ -137,15 +142,16 @@ std::vector<double> convex(const std::vector<double>& pressure, const std::strin
     for (std::size_t i = a + 1; i < b; ++i) {
       result[i] = std::lerp(pressure[a], pressure[b], double(i - a) / double(b - a));
       require(result[i] > (1 - most) * pressure[i], "curve", what,
-              fmt::format("is not convex: a pressure lies {:.2g} % above the line between others; "
-                          "remove or smooth the sample, or choose `pressure_window`",
+              fmt::format("is not convex: a pressure lies {:.2g} % above the line between its "
+                          "neighbours; remove or smooth the sample, or choose a `pressure_window`",
                           100 * (pressure[i] / result[i] - 1)));
     }
   }
   return result;
 }
 
-/// The mean of some contacts on the clearances of a deck, per area.
+/// The mean of the laws of some contacts at the clearances of a deck, per nominal area. which:
+/// indices of the contacts.
 DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& clearance,
                         const std::vector<std::size_t>& which) {
   DeckLaw law;
@@ -160,7 +166,7 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
     for (const std::size_t i : which) {
       const DeckContact& contact = problem.contacts[i];
       const double weight = share / contact.nominal_area;
-      // The ends of the range may miss the table by rounding.
+      // Because of rounding, the ends of the range may lie outside the table of the contact.
       const double indentation =
           std::clamp(contact.clearance_origin - clearance[row], contact.lowest, contact.highest);
       law.pressure[row] += weight * contact.law->force(indentation);
@@ -198,7 +204,8 @@ double interpolation_error(const DeckProblem& problem, const Deck& deck) {
   return worst;
 }
 
-/// The mean, and of several low and high.
+/// The cases of a deck with their contacts: the mean of all, and for several contacts also the
+/// contacts at the 2.5 % and 97.5 % quantiles of the force at this clearance.
 std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases_of(const DeckProblem& problem,
                                                                     double clearance) {
   const std::vector<std::size_t> order = by_force(problem.contacts, clearance);
@@ -222,13 +229,13 @@ std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, st
 void check(const DeckProblem& problem, detail::DeckContent content) {
   const bool table = content == detail::DeckContent::table;
   const bool springs = content == detail::DeckContent::springs;
-  require(!problem.contacts.empty(), "contacts", 0, "are given; give one at least");
+  require(!problem.contacts.empty(), "contacts", 0, "given; give at least one");
   require(problem.rows >= 4 && problem.rows <= 100000, "rows", problem.rows,
           "must be from 4 to 100000");
   require(problem.sliders >= 2 && problem.sliders <= 100000, "sliders", problem.sliders,
           "must be from 2 to 100000");
-  require(problem.min_force > 0 && problem.min_force < 1, "min_force",
-          problem.min_force, "must be > 0 and < 1, a part of the force at which all slips");
+  require(problem.min_force > 0 && problem.min_force < 1, "min_force", problem.min_force,
+          "must be > 0 and < 1; it is a fraction of the force at which the whole contact slips");
   if (problem.pressure_window)
     require(problem.pressure_window->first > 0 &&
                 problem.pressure_window->second > problem.pressure_window->first,
@@ -241,7 +248,7 @@ void check(const DeckProblem& problem, detail::DeckContent content) {
     const double area = contact.nominal_area;
     if (table || problem.pressure_window || (springs && problem.contacts.size() > 1))
       require_that(area > 0 && std::isfinite(area), "nominal_area",
-                   "not given, but a pressure is a force per nominal area");
+                   "not given, but a pressure needs the nominal area");
     if (!friction && !springs) continue;
     require_that(
         contact.knows_tangential_stiffness, "tangential_stiffness",
@@ -249,11 +256,11 @@ void check(const DeckProblem& problem, detail::DeckContent content) {
         "curve with stick solves");
     if (springs) continue;
     require_that(!std::isnan(contact.indentation), "indentation",
-                 "not given, nor another position, on which the tangential stiffness depends");
+                 "not given, but the tangential stiffness depends on it; give it or another load");
   }
 }
 
-/// All numbers of the deck, from SI.
+/// Converts all numbers of the deck from SI to its unit system.
 void convert(Deck& deck) {
   const UnitSystem& units = deck.problem.units;
   const auto scale = [&](auto& values, Dimension dimension) {
@@ -299,11 +306,11 @@ std::vector<std::string> opening(const DeckProblem& problem) {
   const DeckContact& first = problem.contacts.front();
   const double square = 1 / (units.in_si(Dimension::length) * units.in_si(Dimension::length));
   if (!std::isnan(first.sample_area))
-    lines.push_back(fmt::format(
-        "Nominal area: {:.10g}, of the part. The law was found on a sample of {:.10g}; forces and "
-        "stiffnesses are those of the sample times {:.10g}.",
-        first.nominal_area * square, first.sample_area * square,
-        first.nominal_area / first.sample_area));
+    lines.push_back(
+        fmt::format("Nominal area of the part: {:.10g}. The law was computed on a sample of "
+                    "{:.10g}; forces and stiffnesses are those of the sample times {:.10g}.",
+                    first.nominal_area * square, first.sample_area * square,
+                    first.nominal_area / first.sample_area));
   else if (!std::isnan(first.nominal_area))
     lines.push_back(fmt::format("Nominal area: {:.10g}.", first.nominal_area * square));
   return lines;
@@ -349,7 +356,7 @@ void add_table(Deck& deck, int max_rows, DeckSolution& answer) {
             problem.friction_coefficient * pascal));
 }
 
-/// The contacts of one case, and what they are called.
+/// Indices of the contacts of the requested case, and a text that says which contacts these are.
 std::pair<std::vector<std::size_t>, std::string> case_of(const DeckProblem& problem) {
   if (problem.contacts.size() == 1) return {{0}, what_of(problem.of, {0}, 1)};
   const Range range = common_range(problem);
@@ -373,21 +380,22 @@ void add_sliders(Deck& deck, DeckSolution& answer) {
     force += contact.law->force(contact.indentation) / double(contacts.size());
   const double newton = 1 / problem.units.in_si(Dimension::force),
                stiffness = 1 / problem.units.in_si(Dimension::stiffness);
-  deck.header.push_back(
-      fmt::format("Of: {}, at the normal force {:.10g} with the coefficient of friction {:.6g}.",
-                  what, force * newton, problem.friction_coefficient));
+  deck.header.push_back(fmt::format(
+      "Contact: {}, at the normal force {:.10g} with the coefficient of friction {:.6g}.", what,
+      force * newton, problem.friction_coefficient));
   deck.header.push_back(fmt::format(
       "Sliders in parallel: each a spring in series with a slider. Together: stiffness {:.10g}, "
       "force {:.10g}.",
       set.stiffness * stiffness, set.force * newton));
-  deck.header.push_back(fmt::format(
-      "Loss of a cycle at {:g} of the force of all: off by {:.3g} %. Beyond {:.4g} of it all that "
-      "sticks is one slider.",
-      problem.min_force, 100 * set.loss_error, set.resolved));
+  deck.header.push_back(
+      fmt::format("The loss of a cycle at {:g} of the total force is off by {:.3g} %. Beyond "
+                  "{:.4g} of it one slider holds all that sticks.",
+                  problem.min_force, 100 * set.loss_error, set.resolved));
   deck.sliders = std::move(set.sliders);
 }
 
-/// The law of a case: of one contact its own, of several their mean at each clearance as a table.
+/// The law of a case. A single contact has its own law. For several it is a table of their mean
+/// force and stiffnesses at each clearance.
 std::shared_ptr<const ContactLaw> law_of_case(const DeckProblem& problem, const Range& range,
                                               const std::vector<std::size_t>& which) {
   const DeckContact& first = problem.contacts[which.front()];
@@ -412,23 +420,23 @@ void add_springs(Deck& deck) {
   const auto [which, what] = case_of(problem);
   const DeckContact& first = problem.contacts[which.front()];
   const std::shared_ptr<const ContactLaw> law = law_of_case(problem, range, which);
-  // The ends of the range may miss a table by rounding.
+  // Because of rounding, the ends of the range may lie outside the table.
   const double lowest = std::max(first.clearance_origin - range.far, law->lowest_indentation());
   const double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
   const bool friction = !std::isnan(problem.friction_coefficient);
   deck.springs = std::make_shared<const LawSprings>(
       *law, lowest, highest,
       LawSpringsOptions{.friction_coefficient = friction ? problem.friction_coefficient
-                                                        : std::numeric_limits<double>::infinity(),
-                       .springs = problem.sliders});
+                                                         : std::numeric_limits<double>::infinity(),
+                        .springs = problem.sliders});
   const double metre = 1 / problem.units.in_si(Dimension::length),
                newton = 1 / problem.units.in_si(Dimension::force);
   deck.header.push_back(
-      fmt::format("Of: {}. Indentation: {:.6g} less the clearance, which is counted from {}.", what,
-                  first.clearance_origin * metre, first.clearance_from));
+      fmt::format("Contact: {}. Indentation: {:.6g} minus the clearance, which is counted from {}.",
+                  what, first.clearance_origin * metre, first.clearance_from));
   deck.header.push_back(fmt::format(
-      "Window: indentation {:.6g} to {:.6g}, force {:.6g} to {:.6g}; below it levels are coarser, "
-      "and above it the force goes on along its tangent.",
+      "Window: indentation {:.6g} to {:.6g}, force {:.6g} to {:.6g}; below it springs are coarser, "
+      "above it the force follows its tangent.",
       lowest * metre, highest * metre, law->force(lowest) * newton, law->force(highest) * newton));
 }
 
@@ -452,7 +460,7 @@ DeckContact deck_contact(ContactProblem problem, const Context& context) {
   double decay_length = DeckContact::unknown;
   std::string clearance_from = "first touch, and is the negative of the indentation";
   if (auto* curve = std::get_if<CurveContact>(&problem)) {
-    // K_t of every sample takes the place of G*/E*, which then may be any number.
+    // If each sample has K_t, the ratio G*/E* is not used and may be any number.
     knows_tangential_stiffness = complete(curve->curve, &ForceSample::tangential_stiffness) ||
                                  !std::isnan(curve->modulus_ratio);
     if (std::isnan(curve->modulus_ratio)) curve->modulus_ratio = 1;
@@ -462,7 +470,7 @@ DeckContact deck_contact(ContactProblem problem, const Context& context) {
   }
   ContactSolution answer = solve(std::move(problem), context);
   require(answer.points.size() < 2, "contacts",
-          fmt::format("{} operating points", answer.points.size()), "are given; a deck takes one");
+          fmt::format("{} operating points", answer.points.size()), "given; a deck takes one");
   std::optional<double> indentation;
   if (!answer.points.empty()) indentation = indentation_of(*answer.law, answer.points.front());
   DeckContact contact = deck_contact(std::move(answer.law), indentation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decks as other programs read them: one function for each format.
+// Decks in the formats of other programs, one function for each format.
 #include "formats.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 namespace salebra::detail {
 namespace {
 
-/// CalculiX and Abaqus read at most 20 characters of a number: as many digits as fit, and no more than
-/// tell a number from its neighbours.
+/// Writes a number in at most 20 characters, since CalculiX and Abaqus read no more. Writes as many
+/// digits as fit, but no more than distinguish a number from its neighbours.
 std::string number(double value) {
   constexpr std::size_t most = 20;
   std::string text = fmt::format("{}", value);
@@ -28,17 +28,18 @@ std::string number(double value) {
   return text;
 }
 
-/// Throws InvalidInput where the numbers of a column, as the other program reads them, do not rise:
-/// it would read a step, or refuse the deck.
+/// Throws InvalidInput if the numbers of a column do not increase after rounding to the digits that
+/// the other program reads. That program would see a step, or refuse the deck. what: name of the
+/// column.
 void require_rising(const Deck& deck, const std::vector<double>& column, const char* what) {
   for (std::size_t i = 1; i < column.size(); ++i)
-    require(column[i] > column[i - 1], "rows", deck.clearance.size(),
-            fmt::format("are too many: two have the {} {} in all digits that are read; give fewer, "
-                        "or {}",
-                        what, column[i],
-                        deck.problem.pressure_window
-                            ? "widen `pressure_window`"
-                            : "count the indentation from nearer to the contact"));
+    require(
+        column[i] > column[i - 1], "rows", deck.clearance.size(),
+        fmt::format(
+            "are too many: two have the same {} {} in all digits that are read; give fewer, or {}",
+            what, column[i],
+            deck.problem.pressure_window ? "widen `pressure_window`"
+                                         : "count the indentation from nearer to the contact"));
 }
 
 std::string comments(const Deck& deck, const CommentStyle& style) {
@@ -47,7 +48,7 @@ std::string comments(const Deck& deck, const CommentStyle& style) {
   return text;
 }
 
-/// Throws InvalidInput where the rows of columns of whole numbers do not rise.
+/// Throws InvalidInput if the approach or a pressure does not increase at full precision.
 void require_rising(const Deck& deck) {
   std::vector<double> approach = deck.clearance;
   for (double& value : approach) value = -value;
@@ -77,7 +78,7 @@ std::string csv(const Deck& deck) {
   return text;
 }
 
-/// Its members are described in docs/howto/decks.md.
+/// A deck as JSON. docs/howto/decks.md describes its members.
 std::string json(const Deck& deck) {
   require_rising(deck);
   const DeckProblem& problem = deck.problem;
@@ -117,8 +118,9 @@ struct DeckRow {
   std::string displacement, pressure;
 };
 
-/// Rows in ascending order, from no pressure on. zero: the clearance at which the displacement is 0.
-/// steps > 0: a row more, so many steps beyond the last with its slope.
+/// The rows of a table in ascending order of displacement; the first has no pressure. zero: the
+/// clearance that counts as displacement 0. steps > 0: adds a row at this many times the last
+/// spacing beyond the last row, with the slope of the last two.
 std::vector<DeckRow> rows_of(const Deck& deck, const DeckLaw& law, double zero, double steps = 0) {
   std::vector<double> displacement{zero - first_clearance(deck)}, pressure{0};
   for (std::size_t i = 0; i < deck.clearance.size(); ++i) {
@@ -142,20 +144,22 @@ std::vector<DeckRow> rows_of(const Deck& deck, const DeckLaw& law, double zero, 
   return rows;
 }
 
-/// Pairs of pressure and overclosure.
+/// Lines "pressure, overclosure" of a table.
 std::string overclosures(const std::vector<DeckRow>& rows) {
   std::string text;
   for (const DeckRow& row : rows) text += fmt::format("{}, {}\n", row.pressure, row.displacement);
   return text;
 }
 
-/// CalculiX CrunchiX User's Manual, *SURFACE BEHAVIOR and *FRICTION. EXPONENTIAL: p0 at clearance 0,
-/// and c0, at which the pressure is 1 % of p0: p = p0 exp(−g ln 100/c0). TABULAR: pressure and
-/// overclosure; outside the pressure stays constant, hence the row that goes on with the last slope. Springs
-/// of a table begin at a clearance of 1e-3 in any unit, hence its overclosure counts from where the
-/// pressure begins. *FRICTION: μ and stick slope, a force per volume. Of version 2.20, TYPE=NODE TO
-/// SURFACE follows both; SURFACE TO SURFACE has no force before the surfaces touch, and ends where a
-/// table has more than some twenty rows.
+/// CalculiX CrunchiX User's Manual, *SURFACE BEHAVIOR and *FRICTION. EXPONENTIAL takes the pressure
+/// p0 at clearance 0 and the clearance c0 at which the pressure is 1 % of p0: p = p0 exp(−g ln
+/// 100/c0) at the clearance g. TABULAR takes pressure and overclosure (the negative of the
+/// clearance). Outside the table the pressure stays constant, so a further row continues the last
+/// slope. The springs of a table begin to act at a clearance of 1e-3 in any unit, so overclosure is
+/// measured from the clearance where the pressure begins. *FRICTION takes μ and the stick slope, a
+/// force per volume. In version 2.20, TYPE=NODE TO SURFACE follows both keywords; SURFACE TO
+/// SURFACE has no force before the surfaces touch, and stops if a table has more than some twenty
+/// rows.
 std::string calculix(const Deck& deck) {
   std::string text = comments(deck, {"**"}) + "** For *CONTACT PAIR, TYPE=NODE TO SURFACE.\n";
   for (const DeckLaw& law : deck.laws) {
@@ -179,10 +183,11 @@ std::string calculix(const Deck& deck) {
   return text;
 }
 
-/// Abaqus Keywords Reference Guide, *SURFACE BEHAVIOR: TABULAR has pressure and overclosure in
-/// ascending order of overclosure, the first without pressure, and goes on with the last slope. Its
-/// EXPONENTIAL reaches zero at a clearance, and is another function than exp(−g/l). *FRICTION with
-/// ELASTIC SLIP, the stiffness method: stick stiffness μp over that slip.
+/// Abaqus Keywords Reference Guide, *SURFACE BEHAVIOR: TABULAR takes pressure and overclosure in
+/// ascending order of overclosure, the first row with pressure 0, and continues the last slope. The
+/// EXPONENTIAL of Abaqus reaches pressure 0 at a finite clearance g, and so is not the function
+/// exp(−g/l). *FRICTION with ELASTIC SLIP is a penalty method: the stick stiffness is μp divided by
+/// the elastic slip.
 std::string abaqus(const Deck& deck) {
   std::string text = comments(deck, {"**"});
   for (const DeckLaw& law : deck.laws) {
@@ -197,10 +202,11 @@ std::string abaqus(const Deck& deck) {
   return text;
 }
 
-/// Ansys Element Reference, COMBIN39: real constants D1, F1, … D20, F20 through the origin, the last
-/// slope goes on; KEYOPT(1) = 0 unloads along the curve, KEYOPT(2) = 1 has no force in compression.
-/// Nodes I above and J below make the approach of both an elongation. A `$` parts commands of one
-/// line.
+/// Ansys Element Reference, COMBIN39: the real constants D1, F1, … D20, F20 are the displacements
+/// and forces of at most 20 points of a curve through the origin, and the last slope continues.
+/// KEYOPT(1) = 0 unloads along the curve, KEYOPT(2) = 1 has no force in compression. With node I
+/// above and node J below, an approach of the bodies elongates the element. A `$` separates
+/// commands on a line.
 std::string ansys(const Deck& deck) {
   std::string text = comments(deck, {"!", {"$"}});
   text +=
@@ -225,8 +231,9 @@ std::string ansys(const Deck& deck) {
 }
 
 /// Code_Aster R5.03.17, relation CHOC_ELAS_TRAC (material DIS_CHOC_ELAS), and U4.43.01: FX is a
-/// function of DX, linear, from (0, 0) on, strictly increasing, the left excluded; contact begins
-/// where the length of the discrete element is DIST_1 + DIST_2. Names of concepts have eight letters.
+/// function of DX, linear between points, strictly increasing from (0, 0), and not defined for DX <
+/// 0. Contact begins where the length of the discrete element is DIST_1 + DIST_2. Names of objects
+/// have at most eight letters.
 std::string code_aster(const Deck& deck) {
   std::string text = comments(deck, {"#"});
   text +=
@@ -258,9 +265,9 @@ std::string jenkins(const Deck& deck) {
 std::string header_of_c(const Deck& deck) {
   const UnitSystem& units = deck.problem.units;
   return c_header(*deck.springs, {.name = deck.problem.name,
-                                 .comment = deck.header,
-                                 .length_unit = units.in_si(Dimension::length),
-                                 .force_unit = units.in_si(Dimension::force)});
+                                  .comment = deck.header,
+                                  .length_unit = units.in_si(Dimension::length),
+                                  .force_unit = units.in_si(Dimension::force)});
 }
 
 }  // namespace
@@ -281,10 +288,10 @@ std::string comment(std::string_view sentence, const CommentStyle& style) {
   while (!rest.empty()) {
     std::size_t end = std::min(rest.find(' '), rest.size());
     if (!line.empty() && line.size() + 1 + end > most) end_line();
-    // Programs read a line that is too long as two, of which the second would be a command.
+    // Other programs split a line that is too long, and would take its second part for a command.
     for (; end > most; end = std::min(rest.find(' '), rest.size())) {
       std::size_t cut = most;
-      while ((rest[cut] & 0xc0) == 0x80) --cut;  // a character of UTF-8 stays whole
+      while ((rest[cut] & 0xc0) == 0x80) --cut;  // does not split a character of UTF-8
       line += rest.substr(0, cut);
       rest.erase(0, cut);
       end_line();

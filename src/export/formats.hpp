@@ -10,53 +10,58 @@
 
 namespace salebra::detail {
 
-/// One law of a deck, per nominal area, on the clearances of the deck. All numbers of a deck are in
-/// its units.
+/// One law of a deck per nominal area, with one value at each clearance of the deck. All numbers of
+/// a deck are in its units.
 struct DeckLaw {
-  std::string name;  ///< mean, low, high
-  std::string what;  ///< "surface 3, the lowest of 8"
+  std::string name;  ///< "mean", "low" or "high"
+  std::string what;  ///< which contacts it describes, such as "surface 3, the lowest of 8"
   std::vector<double> pressure, normal_stiffness;
-  std::vector<double> tangential_stiffness = {};  ///< empty: not known
-  double stick_slope = DeckContact::unknown;      ///< K_t/A at the position
-  double elastic_slip = DeckContact::unknown;     ///< μp over it
+  std::vector<double> tangential_stiffness = {};  ///< empty if not known
+  double stick_slope = DeckContact::unknown;      ///< K_t per nominal area at the operating point
+  /// μp/stick_slope, with the pressure p at the operating point.
+  double elastic_slip = DeckContact::unknown;
 };
 
-/// Stiffness and force of a slider; it slips at their quotient.
+/// A spring in series with a Coulomb slider; it slips from the displacement slider_force/stiffness
+/// on.
 struct Slider {
   double stiffness = 0, slider_force = 0;
 };
 
 struct Deck {
   const DeckProblem& problem;
-  std::vector<std::string> header = {};  ///< lines, without the marks of comments
+  std::vector<std::string> header = {};  ///< sentences at the top, without comment marks
   std::vector<double> clearance = {};    ///< from the farthest to the closest
-  std::vector<DeckLaw> laws = {};        ///< the mean, and of several surfaces low and high
-  std::vector<Slider> sliders = {};      ///< from the one that slips first on
+  std::vector<DeckLaw> laws = {};        ///< the mean; for several surfaces also low and high
+  std::vector<Slider> sliders = {};      ///< in the order in which they slip
   std::shared_ptr<const LawSprings> springs = {};
-  double exponential_pressure = DeckContact::unknown;  ///< at clearance 0, of one exponential law
-  double exponential_length = DeckContact::unknown;    ///< l of it
+  /// Pressure at clearance 0, if the deck has one exponential law.
+  double exponential_pressure = DeckContact::unknown;
+  double exponential_length = DeckContact::unknown;  ///< decay length l of this law
 
   bool has_friction() const;
 };
 
-/// How a format marks a comment, and what would end one or be obeyed in it.
+/// How a format marks a comment, and which strings would end the comment or act as commands in it.
 struct CommentStyle {
-  std::string_view mark;  ///< before each line
+  std::string_view mark;  ///< at the beginning of each line
   std::vector<std::string_view> forbidden = {};
 };
 
-/// A sentence as lines of a comment, none longer than what the programs read. It may hold what a file
-/// says and what a file is called, hence control characters and what the style forbids are escaped:
-/// whatever the sentence holds, the other program takes nothing of it for a command.
+/// Writes a sentence as comment lines, none longer than the other programs read. The sentence may
+/// quote a file and its name. Control characters and the strings that the style forbids are
+/// therefore escaped, so that no part of the sentence can act as a command of the other program.
 std::string comment(std::string_view sentence, const CommentStyle& style);
 
-/// The clearance at which piecewise linear tables start without a pressure, the same for all laws of
-/// a deck: no closer than where the tangent at the farthest row meets zero, so that they stay convex.
+/// The clearance at which piecewise linear tables begin with pressure 0, the same for all laws of a
+/// deck. It is at least the clearance at which the tangent at the farthest row reaches 0, so that
+/// the tables stay convex.
 double first_clearance(const Deck& deck);
 
 enum class DeckContent { table, sliders, springs };
 
-/// What a format holds, and how it is written. A format is a function and a row.
+/// A format of decks: what it contains, and the function that writes it. A new format needs one
+/// function and one entry of this type.
 struct DeckWriter {
   DeckFormat format;
   std::string (*write)(const Deck&);
@@ -65,12 +70,14 @@ struct DeckWriter {
 };
 const DeckWriter& writer_of(DeckFormat format);
 
-/// Sliders of contacts at their positions (deck.hpp), SI.
+/// Sliders that represent the mean of contacts at their operating points (deck.hpp), in SI units.
 struct SliderSet {
   std::vector<Slider> sliders;
-  double stiffness = 0, force = 0;  ///< of all together
-  double resolved = 0;              ///< T/(μF) up to which levels within the law slip
-  double loss_error = 0;            ///< relative, at the smallest force
+  double stiffness = 0, force = 0;  ///< sums over all sliders, N/m and N
+  /// Largest tangential force, over μF, at which all slipping springs lie inside the range of the
+  /// law.
+  double resolved = 0;
+  double loss_error = 0;  ///< relative error of the loss per cycle at the smallest tangential force
 };
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
                           int count, double min_force);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Jenkins' sliders in parallel (Iwan's model) of a contact under a constant normal force.
+// Jenkins sliders (springs in series with Coulomb sliders) in parallel, known as Iwan's model, that
+// represent a contact under a constant normal force.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,13 +9,14 @@
 #include <functional>
 #include <salebra/base/error.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "formats.hpp"
 
 namespace salebra::detail {
 namespace {
 
-/// First loading of the mean of several contacts: T'(x), and how far it is known.
+/// First loading of the mean of several contacts: the derivative T'(x) of the tangential force T
+/// with respect to the displacement x, and the displacement up to which it is known.
 class Backbone {
  public:
   Backbone(const std::vector<DeckContact>& contacts, double friction_coefficient)
@@ -41,7 +43,7 @@ class Backbone {
     }
     return sum / double(contacts_.size());
   }
-  /// ∫ weight(x) T'(x) dx.
+  /// ∫ weight(x) T'(x) dx between the displacements `from` and `to`.
   double integral(double from, double to, const std::function<double(double)>& weight) const {
     std::vector<double> points{from};
     for (const double bend : bends_)
@@ -52,7 +54,7 @@ class Backbone {
   double force(double from, double to) const {
     return integral(from, to, [](double) { return 1.; });
   }
-  /// The displacement of a force below that which is known.
+  /// The displacement at a tangential force smaller than the largest known one.
   double displacement(double force_there) const {
     double high = force_there / stiffness(0);
     while (high < end_ && force(0, high) < force_there) high *= 2;
@@ -61,7 +63,7 @@ class Backbone {
   double end() const { return end_; }
 
  private:
-  /// Slip reaches so deep for a displacement: ρ/μ.
+  /// Depth of slip divided by the displacement: (K_t/K)/μ.
   double depth_of(const DeckContact& contact) const {
     return contact.law->stiffness_ratio(contact.indentation) / friction_;
   }
@@ -71,27 +73,31 @@ class Backbone {
   std::vector<double> bends_;
 };
 
-/// Displacements between which a slider stands for the springs that begin to slip there, but for the
-/// last, which goes on to the end: even steps up to `first`, then growing in proportion.
+/// `count` displacements that divide the springs into groups. A slider represents the springs that
+/// begin to slip between two of these displacements, and one more slider those that slip later. The
+/// steps are constant up to about `first`, then proportional to the displacement.
 std::vector<double> edges(double first, double last, int count) {
-  // x = a sinh(i h). The error of the loss at x is half the square of step over x: steps of an eighth
-  // of `first`, which 60 sliders have where it is a hundredth of the last, leave it below 1 %.
+  // x_i = first · sinh(i h). The relative error of the loss at the amplitude x is half the square
+  // of the step over x. If the step at x = first is an eighth of `first`, the error is below 1 %;
+  // 60 sliders are enough for this if `first` is a hundredth of `last`.
   std::vector<double> x{0};
   const double a = first, top = std::asinh(last / a);
   for (int i = 1; i < count; ++i) x.push_back(a * std::sinh(top * i / (count - 1)));
   return x;
 }
 
-/// Loss of a cycle between ±X, by Masing's rule 8 times the area between backbone and chord.
+/// Loss of a cycle between the displacements ±amplitude. By Masing's rule it is 8 times the area
+/// between the curve of first loading and its chord.
 double loss(const Backbone& backbone, double amplitude) {
-  // ∫_0^X T dx = ∫_0^X (X − x) T' dx
+  // Uses ∫_0^X T dx = ∫_0^X (X − x) T' dx
   return 8 * backbone.integral(0, amplitude, [&](double x) { return amplitude / 2 - x; });
 }
 
 double loss(const std::vector<Slider>& sliders, double force) {
   double amplitude = 0, held = 0, stiffness = 0, work = 0;
   for (const Slider& slider : sliders) stiffness += slider.stiffness;
-  // They slip one after another: `held` by those that slip.
+  // Finds the amplitude at which the force is reached. The sliders slip one after another; `held`
+  // is the total force of those that slip.
   for (const Slider& slider : sliders) {
     amplitude = (force - held) / stiffness;
     if (amplitude <= slider.slider_force / slider.stiffness) break;
@@ -110,21 +116,22 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
                           int count, double min_force) {
   const Backbone backbone(contacts, friction_coefficient);
   SliderSet set{.sliders = {}, .stiffness = backbone.stiffness(0), .force = backbone.slip_force()};
-  // Beyond this part nothing is told apart: the last slider holds what remains.
+  // Largest fraction of μF that is resolved; the last slider represents all springs that slip
+  // later.
   constexpr double resolved = 0.999;
   const double known = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
   set.resolved = std::min(resolved, known / set.force);
-  require(min_force < set.resolved, "min_force", min_force,
-          fmt::format("must be below {:.4g}, {}", set.resolved,
-                      set.resolved < resolved
-                          ? "up to which slip stays within the law; give a smaller one, or a curve "
-                            "from lower forces on"
-                          : "beyond which all that sticks is one slider"));
+  require(
+      min_force < set.resolved, "min_force", min_force,
+      fmt::format("must be below {:.4g}, {}", set.resolved,
+                  set.resolved < resolved ? "up to which slip stays within the law; give a smaller "
+                                            "value, or a curve that begins at lower forces"
+                                          : "beyond which one slider holds all that sticks"));
   const double smallest = backbone.displacement(min_force * set.force);
   const double last =
       set.resolved < resolved ? backbone.end() : backbone.displacement(resolved * set.force);
   const std::vector<double> x = edges(smallest, last, count);
-  double force = 0, stiffness = set.stiffness;  // T and T' at the edge
+  double force = 0, stiffness = set.stiffness;  // T and T' at the current displacement
   double rest_force = set.force, rest_stiffness = set.stiffness;
   for (std::size_t i = 1; i < x.size(); ++i) {
     const double next_stiffness = backbone.stiffness(x[i]);
@@ -139,8 +146,8 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     set.sliders.push_back(slider);
   }
   require(rest_stiffness > 0 && rest_force > 0, "curve", "",
-          "has levels below its range that would slip before those within; give one from lower "
-          "forces on");
+          "has springs below its range that slip before those within; give a curve that begins at "
+          "lower forces");
   set.sliders.push_back({rest_stiffness, rest_force});
   set.loss_error = loss(set.sliders, min_force * set.force) / loss(backbone, smallest) - 1;
   return set;

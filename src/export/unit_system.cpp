@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Consistent unit systems, from their base units.
+// Consistent unit systems: the units of all dimensions follow from those of length, mass and time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double base(const std::array<BaseUnit, N>& units, std::string_view name, std::st
   std::string known;
   for (const BaseUnit& unit : units) known += (known.empty() ? "" : ", ") + std::string(unit.first);
   throw InvalidInput(field, std::string(name),
-                     fmt::format("is no {}; there are {}, as in mm,t,s", what, known));
+                     fmt::format("is not a unit of {}; known are {}, as in mm,t,s", what, known));
 }
 
 struct Exponents {

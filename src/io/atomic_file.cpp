@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// File that appears under its name complete or not at all.
+// A file that appears under its name only when it is complete.
 #include "atomic_file.hpp"
 
 #include <fcntl.h>
@@ -19,17 +19,17 @@
 namespace salebra {
 namespace {
 
-/// More than any result without fields takes.
+/// Free space that a new result file needs: every result without fields is smaller than this.
 constexpr std::uint64_t min_free_bytes = 1 << 20;
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-/// What a writer may meet under the name itself.
+/// Throws if a file may not be written under this name.
 void require_free_name(const std::filesystem::path& file, const WriteOptions& options) {
   const auto folder = folder_of(file);
-  require(!file.filename().empty(), "output", "'" + file.string() + "'", "names no file");
+  require(!file.filename().empty(), "output", "'" + file.string() + "'", "does not name a file");
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
     throw InvalidInput(file.string(),
@@ -38,7 +38,7 @@ void require_free_name(const std::filesystem::path& file, const WriteOptions& op
   if (!std::filesystem::exists(status)) {
     if (!options.overwrite && std::filesystem::is_symlink(file, ignored))
       throw InvalidInput(file.string(),
-                         "exists as a symbolic link to nothing; remove it or set `overwrite`");
+                         "is a symbolic link to a missing file; remove it or set `overwrite`");
     return;
   }
   if (!std::filesystem::is_regular_file(status))
@@ -47,7 +47,7 @@ void require_free_name(const std::filesystem::path& file, const WriteOptions& op
     throw InvalidInput(file.string(), "exists; name another file or set `overwrite`");
 }
 
-/// As the call would be repeated by hand where a signal came in between.
+/// Repeats a system call that a signal has interrupted.
 template <class Call>
 auto without_interruption(const Call& call) {
   auto result = call();
@@ -58,13 +58,15 @@ auto without_interruption(const Call& call) {
 }  // namespace
 
 void require_output(const std::filesystem::path& file, const WriteOptions& options) {
-  // Whether a file of that name can be made in that folder, only making it tells.
+  // The only sure test whether the file can be created is to create it. The temporary file is
+  // removed at the end of this statement.
   detail::AtomicFile(file, options);
   struct statvfs space = {};
   if (statvfs(folder_of(file).c_str(), &space) != 0 || space.f_blocks == 0) return;
   if (std::uint64_t{space.f_bavail} * space.f_frsize < min_free_bytes)
-    throw IoError(file.string() +
-                  ": less than 1 MB is free on its disk; make room or name a file on another disk");
+    throw IoError(
+        file.string() +
+        ": less than 1 MB is free on its disk; free some space or name a file on another disk");
 }
 
 namespace detail {
@@ -77,24 +79,24 @@ namespace {
 
 }  // namespace
 
-void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t offset,
               std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = without_interruption(
-        [&] { return pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(location)); });
+        [&] { return pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
     if (written < 0) fail_at(target, "be written", errno);
-    location += static_cast<std::uint64_t>(written);
+    offset += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
-void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t offset,
              std::span<char> bytes) {
   while (!bytes.empty()) {
     const ssize_t got = without_interruption(
-        [&] { return pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(location)); });
+        [&] { return pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset)); });
     if (got <= 0) fail_at(target, "be read back", got < 0 ? errno : EIO);
-    location += static_cast<std::uint64_t>(got);
+    offset += static_cast<std::uint64_t>(got);
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
@@ -127,7 +129,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& 
     if (descriptor_ < 0 && errno != EEXIST) fail("be created", errno);
   }
   if (descriptor_ < 0) fail("be created", EEXIST);
-  // What only its owner may read stays so. A file system without such modes refuses.
+  // The new file keeps the permissions of the old one. A file system without permissions refuses
+  // fchmod, which is no error.
   struct stat before = {};
   if (stat(target.c_str(), &before) == 0 && fchmod(descriptor_, before.st_mode & 0777) != 0) return;
 }
@@ -150,7 +153,8 @@ void AtomicFile::reserve(std::uint64_t size) {
   const auto length = static_cast<off_t>(size);
   if (without_interruption([&] { return ftruncate(descriptor_, length); }) != 0)
     fail("be written", errno);
-  // posix_fallocate() would write to every block where the file system has no such promise.
+  // fallocate() fails if the file system cannot reserve space, which is no error. posix_fallocate()
+  // would then write to every block.
   if (size > 0 && without_interruption([&] { return fallocate(descriptor_, 0, 0, length); }) != 0 &&
       errno != EOPNOTSUPP && errno != ENOSYS)
     fail("be written", errno);
@@ -158,23 +162,24 @@ void AtomicFile::reserve(std::uint64_t size) {
 
 void AtomicFile::finish() {
   flush(target_, descriptor_);
-  // After EINTR the descriptor is closed all the same, and what it wrote is on the disk.
+  // EINTR is no error here: the descriptor is closed nevertheless, and the data are on the disk.
   if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("be closed", errno);
 }
 
-void AtomicFile::location() {
+void AtomicFile::rename_to_target() {
   if (overwrite_) {
     if (rename(temporary_.c_str(), target_.c_str()) != 0) fail("be put in its place", errno);
   } else if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) !=
              0) {
-    // Some file systems cannot rename without replacing; a hard link cannot replace either.
+    // Some file systems cannot rename a file without replacing another. There a hard link, which
+    // never replaces a file either, gives the file its name.
     if (errno != EINVAL && errno != ENOSYS) fail("be put in its place", errno);
     if (link(temporary_.c_str(), target_.c_str()) != 0) fail("be put in its place", errno);
     unlink(temporary_.c_str());
   }
   placed_ = true;
-  // A folder that may be written but not read cannot be opened for this, and not every file system
-  // knows it.
+  // Flushes the folder too, so that the new name is on the disk. No error if the user may not read
+  // the folder or the file system cannot flush folders.
   const int folder = without_interruption(
       [&] { return open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   if (folder < 0) return;

@@ -9,20 +9,21 @@
 
 namespace salebra::detail {
 
-/// Writes bytes to an open file at a place. Throws IoError naming the target, under which the file
-/// will be known.
-void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
+/// Writes bytes to an open file from `offset` on. target: the final name of the file, which the
+/// IoError names if the call fails.
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t offset,
               std::string_view bytes);
 
-/// Reads what was written there. Throws as write_at() does, also where the file is shorter.
-void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
+/// Fills `bytes` from the file, from `offset` on. Throws as write_at() does, also if the file ends
+/// before `bytes` is full.
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t offset,
              std::span<char> bytes);
 
-/// Flushes an open file to the disk. Throws as write_at() does.
+/// Flushes an open file to the disk. Throws IoError naming the target.
 void flush(const std::filesystem::path& target, int descriptor);
 
-/// The temporary file of an AtomicFile of another process, open for writing. Throws IoError naming
-/// the target.
+/// Opens the temporary file of an AtomicFile that belongs to another process, to write to it.
+/// Throws IoError naming the target.
 class OthersFile {
  public:
   OthersFile(const std::filesystem::path& temporary, const std::filesystem::path& target);
@@ -35,34 +36,35 @@ class OthersFile {
   int descriptor_;
 };
 
-/// A file that appears under its name complete or not at all. Throws IoError for what the system
-/// refuses.
+/// A file that appears under its name only when it is complete. It is written under a temporary
+/// name. Throws IoError if a system call fails.
 class AtomicFile {
  public:
-  /// Creates the temporary file beside its target. Throws as require_output does.
+  /// Creates the temporary file in the folder of its target. Throws as require_output() does.
   AtomicFile(const std::filesystem::path& target, const WriteOptions& options);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-  /// Removes the temporary file unless it was put in its place.
+  /// Removes the temporary file unless rename_to_target() has renamed it.
   ~AtomicFile();
 
   const std::filesystem::path& target() const { return target_; }
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Appends.
+  /// Appends bytes to the temporary file.
   void write(std::string_view bytes);
-  /// Prepares for write_at() in place of write(): makes the file so long, with room on the disk
-  /// where the file system can promise it.
+  /// Sets the size of the temporary file, so that write_at() can be used instead of write().
+  /// Reserves the space on the disk if the file system can do that.
   void reserve(std::uint64_t size);
   int descriptor() const { return descriptor_; }
-  /// Flushes to the disk and closes: what can fail for want of space or by a fault of the disk.
+  /// Flushes the temporary file to the disk and closes it. Errors of a full or faulty disk are
+  /// thrown here.
   void finish();
-  /// Renames the finished file.
-  void location();
+  /// Renames the finished temporary file to its target.
+  void rename_to_target();
   bool placed() const { return placed_; }
   void commit() {
     finish();
-    location();
+    rename_to_target();
   }
 
  private:

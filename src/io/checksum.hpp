@@ -8,11 +8,12 @@
 
 namespace salebra::detail {
 
-/// Checksum of a stream of bytes, however it is cut into pieces: the one of the tree, for sidecars,
-/// kept surfaces and checkpoints. Archives and HDF5 have those of their formats, by their libraries.
-/// Each step is a bijection of the state for a given word and of the word for a given state: streams
-/// of one length that differ within a single aligned word of eight bytes never agree. It tells
-/// damage, not intent. Cost: one pass, several GB/s.
+/// Checksum of a stream of bytes; it does not depend on how the stream is cut into pieces. It is
+/// used for sidecars, kept surfaces and checkpoints (archives and HDF5 files have checksums of
+/// their own, which their libraries check). Each step maps the state one to one for a given word,
+/// and the word one to one for a given state. Two streams of equal length that differ only within
+/// one aligned word of eight bytes therefore always have different sums. It detects damage, not
+/// forgery. Cost: one pass, several GB/s.
 class Checksum {
  public:
   Checksum() = default;
@@ -32,7 +33,7 @@ class Checksum {
     }
   }
 
-  /// The checksum in 64 bits of the bytes so far and their number.
+  /// The 64-bit checksum of the bytes that were added so far, and of their number.
   std::uint64_t value() const {
     Checksum whole = *this;
     whole.take_word();
@@ -40,7 +41,7 @@ class Checksum {
     whole.take_word();
     return whole.state_;
   }
-  /// The same as 16 hexadecimal digits.
+  /// value() as 16 hexadecimal digits.
   std::string digits() const {
     std::string text;
     for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[value() >> shift & 15];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program in a child process, with files in memory for its streams.
+// Runs a program in a child process whose standard streams are files in memory.
 #include "child_program.hpp"
 
 #include <spawn.h>
@@ -82,13 +82,14 @@ void limit(pid_t child, __rlimit_resource resource, rlim_t most) {
   prlimit(child, resource, &both, nullptr);
 }
 
-/// Its end, or that of its time. Ends it where it has to stop.
+/// Waits for the end of the child and returns its status. Kills the child when its time limit has
+/// passed or limits.stopped() returns true.
 int wait_for(pid_t child, const std::string& name, const ChildLimits& limits, ChildRun& run) {
   using namespace std::chrono;
   const auto end = steady_clock::now() + limits.time;
   int status = 0;
   bool stopped = false;
-  // It is looked for at intervals, as a hundredth of its age at first: a short run is not delayed.
+  // The pause between two checks grows from 0.5 to 20 ms, so that a short run is not delayed.
   for (microseconds pause(500);; pause = std::min<microseconds>(pause * 11 / 10, 20ms)) {
     const pid_t ended = waitpid(child, &status, WNOHANG);
     if (ended == child) break;

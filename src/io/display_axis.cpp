@@ -14,13 +14,14 @@
 namespace salebra::detail {
 namespace {
 
-// Units before which an SI prefix reads well and means what it says (not m², not kg).
+// Units that can take an SI prefix. m² is not among them, since its prefix would be squared, nor is
+// kg.
 constexpr std::array<std::string_view, 14> scalable = {
     "m", "N", "Pa", "J", "W", "s", "Hz", "N/m", "N/m²", "N s/m", "rad/s", "m/s", "J/m", "N/m^2"};
 
 std::pair<std::string_view, double> prefix_for(double largest) {
   constexpr std::array<std::string_view, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
-  // A value just below a power of 1000 must not fall a prefix lower by rounding.
+  // The factor 1 + 1e-9 keeps rounding from giving a power of 1000 the next lower prefix.
   const double thousands = std::floor(std::log10(largest * (1 + 1e-9)) / 3);
   const int power = static_cast<int>(std::clamp(thousands, -5.0, 3.0));
   return {prefixes[static_cast<std::size_t>(power + 5)], std::pow(10.0, -3 * power)};
@@ -28,8 +29,8 @@ std::pair<std::string_view, double> prefix_for(double largest) {
 
 std::string number(double value) { return fmt::format("{:g}", value); }
 
-// Decades carry labels, and where there are few of them 2 and 5 do too; what lies between has small
-// tics.
+// Gnuplot's list of tics for a logarithmic axis. Labels the decades and, if there are few decades,
+// also their 2nd and 5th multiples. The other multiples get small tics without label.
 std::string logarithmic_tics(double low, double high) {
   const bool few = high - low < 1.7 || std::floor(high) - std::ceil(low) < 1;
   const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / 9)));
@@ -76,9 +77,9 @@ DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const
   if (axis.low) least = *axis.low;
   if (axis.high) most = *axis.high;
   const std::string field = "axis '" + axis.label + "'";
-  require_that(any, field, "no value is finite; there is nothing to draw");
+  require_that(any, field, "no value is finite, so there is nothing to draw");
   require(least <= most && (!axis.logarithmic || least > 0), field,
-          number(least) + " to " + number(most), "is no range for this axis");
+          number(least) + " to " + number(most), "is not a valid range for this axis");
   largest = std::max(std::abs(least), std::abs(most));
 
   DisplayAxis out;

@@ -11,19 +11,23 @@
 
 namespace salebra::detail {
 
-/// An axis as it is drawn: SI prefix chosen, logarithm taken.
+/// An axis in the numbers that the picture shows: with an SI prefix and, if it is logarithmic, as
+/// logarithms.
 struct DisplayAxis {
-  std::string label;                ///< with its unit
-  double factor = 1;                ///< from the data's unit to the one shown
-  bool logarithmic = false;         ///< what is drawn is the decimal logarithm
-  std::optional<double> low, high;  ///< as drawn
-  std::string tics;  ///< gnuplot's list of labelled and small tics; empty: its own choice
+  std::string label;  ///< text beside the axis, with the unit
+  /// Factor from the unit of the data to the unit that the picture shows.
+  double factor = 1;
+  bool logarithmic = false;         ///< the picture shows the decimal logarithm of the data
+  std::optional<double> low, high;  ///< limits, in the numbers of the picture
+  std::string tics;  ///< gnuplot's list of labelled and small tics; empty: gnuplot chooses
 
-  /// Where a value of the data is drawn; NaN for what a logarithmic axis cannot show.
+  /// Converts a value of the data to the number in the picture; NaN for a value <= 0 on a
+  /// logarithmic axis.
   double display(double value) const;
 };
 
-/// Throws InvalidInput where a logarithmic axis has data but none > 0, and for limits that are not.
+/// The axis for these data. Throws InvalidInput for a logarithmic axis with a limit <= 0, or with
+/// data of which none is > 0.
 DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const double>>& data);
 
 }  // namespace salebra::detail

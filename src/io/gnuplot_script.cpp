@@ -17,10 +17,11 @@
 namespace salebra::detail {
 namespace {
 
-// Okabe and Ito's colours, which stay apart for colour-blind readers, and wine as a ninth.
+// Colours of Okabe and Ito, which colour-blind readers can distinguish, and also grey and wine.
 constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00",
                                "#56B4E9", "#000000", "#808080", "#882255"};
-constexpr int cycle = 7;  // grey and wine only where asked for
+// Number of colours that curves get by default; grey and wine are used only on request.
+constexpr int cycle = 7;
 constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
 constexpr int panel_width = 520, panel_height = 390, title_height = 26;
 
@@ -63,7 +64,7 @@ const char* legend_place(PlotLegend legend) {
   return "top right";
 }
 
-/// Places in a panel, in pixels from the lower left corner of its frame.
+/// A rectangle in a panel, in pixels from the lower left corner of the panel's frame.
 struct Box {
   double left, right, bottom, top;
 
@@ -73,7 +74,8 @@ struct Box {
   }
 };
 
-/// A generous width of a text: fonts differ, and markup takes no place.
+/// Upper estimate of the width of a text in pixels; the true width depends on the font. Markup has
+/// no width.
 double text_width(std::string_view text) {
   constexpr double character = 7.4;
   return character * double(std::ranges::count_if(text, [](char c) {
@@ -107,7 +109,8 @@ class PanelScript {
       x.emplace_back(curve.x);
       y.emplace_back(curve.y);
       y.emplace_back(curve.high);
-      // An error bar that reaches to nearly zero would take a logarithmic axis down by decades.
+      // The limits of error bars do not count on a logarithmic axis: a bar that ends near zero
+      // would extend the axis by decades.
       if (!(panel.y.logarithmic && curve.style == PlotStyle::points)) y.emplace_back(curve.low);
     }
     if (panel.image) {
@@ -146,7 +149,8 @@ class PanelScript {
     out_ += '\n';
   }
 
-  /// Limits of a linear axis, which are needed to know where curves are in the frame.
+  /// Sets the limits of a linear axis. They must be known to find where the curves lie in the
+  /// frame.
   static void set_limits(DisplayAxis& axis, const std::vector<std::span<const double>>& data,
                          double margin) {
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -156,10 +160,11 @@ class PanelScript {
           least = std::min(least, shown);
           most = std::max(most, shown);
         }
-    // If all values are equal but for round-off, gnuplot makes a range.
+    // If all values are equal up to round-off, gnuplot chooses the range.
     if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
     const double padding = margin * (most - least);
-    // An axis of values of one sign ends at zero rather than just beyond it.
+    // If no value is negative the axis does not extend below zero; if none is positive, not above
+    // zero.
     if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - padding) : least - padding;
     if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + padding) : most + padding;
   }
@@ -168,7 +173,8 @@ class PanelScript {
     return (axis.display(value) - *axis.low) / (*axis.high - *axis.low);
   }
 
-  /// Whether the line is inside its axis: gnuplot draws it beyond the frame as well.
+  /// Whether the line lies within the limits of its axis; gnuplot would also draw it outside the
+  /// frame.
   bool seen(const PlotLine& mark) const {
     const DisplayAxis& axis = mark.vertical ? x_ : y_;
     const double at = axis.display(mark.at);
@@ -212,8 +218,9 @@ class PanelScript {
            std::ranges::none_of(taken_, [&](const Box& other) { return box.meets(other); });
   }
 
-  /// Names of lines beside them, from right to left, above or below, where nothing else is; without
-  /// such a place in the legend, which gets the freest corner, or none and is below the panel.
+  /// Finds a position for the name of each marked line, along the line, from right to left, above
+  /// or below it, where it covers no curve. A name without such a position goes to the legend. The
+  /// legend gets the first free corner, or is placed below the panel if no corner is free.
   void place_names() {
     for (const PlotLine& mark : panel_.lines) {
       if (mark.vertical || mark.name.empty() || !seen(mark)) continue;
@@ -380,7 +387,8 @@ class PanelScript {
                        y_.display(curve.y[i]));
         if (band) {
           double low = y_.display(curve.low[i]);
-          // A bar that ends at zero or below goes on to the frame of a logarithmic axis.
+          // On a logarithmic axis an error bar that ends at zero or below is drawn down to the
+          // frame.
           if (bars && std::isnan(low)) low = y_.low.value_or(low);
           fmt::format_to(std::back_inserter(out_), " {:.9g} {:.9g}", low,
                          y_.display(curve.high[i]));
@@ -402,7 +410,7 @@ class PanelScript {
     for (const auto* group : {&bands, &drawn, &labels_})
       plots_.insert(plots_.end(), group->begin(), group->end());
     require(!plots_.empty(), "panel", "'" + panel_.title + "'",
-            "shows nothing; give a curve or an image");
+            "is empty; give a curve or an image");
   }
 
   static std::string marker_of(int which) {
@@ -430,13 +438,16 @@ class PanelScript {
   std::string& out_;
   struct PlacedName {
     const PlotLine* mark;
-    double right, offset;  ///< share of the width of the frame; lines of text above the line
+    /// right: right end of the name, as a fraction of the frame's width; offset: its distance from
+    /// the line, in text lines.
+    double right, offset;
   };
 
-  // A little less than what gnuplot leaves of a panel without title.
+  // Size in pixels, a little less than that of gnuplot's frame in a panel without title.
   static constexpr double frame_width = 410, frame_height = 300;
   DisplayAxis x_, y_, top_;
-  double height_ = 0;  ///< of the frame; 0: limits are not known, and nothing can be avoided
+  /// Height of the frame in pixels; 0: the limits are unknown, so texts cannot avoid curves.
+  double height_ = 0;
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
   std::vector<PlacedName> names_;
@@ -448,7 +459,8 @@ class PanelScript {
 }  // namespace
 
 std::string gnuplot_script(const Figure& figure, PictureFormat format) {
-  require(!figure.panels.empty(), "figure", figure.panels.size(), "panels; give at least one");
+  require(!figure.panels.empty(), "figure", figure.panels.size(),
+          "panels given; give at least one");
   const int panels = static_cast<int>(figure.panels.size());
   const int columns =
       std::min(panels, figure.columns > 0

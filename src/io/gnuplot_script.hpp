@@ -9,9 +9,9 @@ namespace salebra::detail {
 
 enum class PictureFormat { png, svg, pdf };
 
-/// The gnuplot program that draws the figure to its standard output. It holds no file name: gnuplot
-/// runs a name that starts with '|' as a command. Throws InvalidInput for a figure that cannot be
-/// drawn.
+/// The gnuplot program that draws a figure to its standard output. It contains no name of an output
+/// file, because gnuplot runs a name that starts with '|' as a command. Throws InvalidInput for a
+/// figure that cannot be drawn.
 std::string gnuplot_script(const Figure& figure, PictureFormat format);
 
 }  // namespace salebra::detail

@@ -16,15 +16,15 @@
 #include "surface_writers.hpp"
 #include "text_numbers.hpp"
 
-/// Gwyddion Simple Field: a text header "Key = value" ended by 1 to 4 NUL bytes that pad it to a
-/// multiple of four, then float32 values, little-endian, row after row from the top left; undefined
+/// Gwyddion Simple Field: a text header of lines "Key = value", 1 to 4 NUL bytes that pad it to a
+/// multiple of four, then little-endian float32 values, row after row from the top left; undefined
 /// points are NaN.
 namespace salebra::detail {
 namespace {
 
 constexpr std::string_view gsf_magic = "Gwyddion Simple Field 1.0\n";
 
-/// The value of an entry that must be a number > 0.
+/// The value of a header entry that must be a number > 0.
 template <class Number>
 Number positive_entry(const std::filesystem::path& file, std::string_view key,
                       std::string_view value) {
@@ -33,7 +33,7 @@ Number positive_entry(const std::filesystem::path& file, std::string_view key,
   if (status != std::errc{} || end != value.data() + value.size() || !(number > 0) ||
       !std::isfinite(static_cast<double>(number)))
     refuse(file, "has the entry " + std::string(key) + " = '" + std::string(value.substr(0, 20)) +
-                     "' in its header, which is no number > 0");
+                     "' in its header, which is not a number > 0");
   return number;
 }
 
@@ -55,8 +55,9 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
     constexpr std::array known{"XRes",   "YRes",  "XReal",   "YReal",  "XYUnits",
                                "ZUnits", "Title", "XOffset", "YOffset"};
     if (std::ranges::find(known, key) == known.end() && is_about_numbers(key, value))
-      refuse(file, "has the entry '" + std::string(line.substr(0, 60)) +
-                       "' in its header, which is not used; apply it, and remove it");
+      refuse(file,
+             "has the entry '" + std::string(line.substr(0, 60)) +
+                 "' in its header, which salebra does not apply; apply it and remove the entry");
     if (key == "XRes") nx = positive_entry<Index>(file, key, value);
     if (key == "YRes") ny = positive_entry<Index>(file, key, value);
     if (key == "XReal") surface.size_x = positive_entry<double>(file, key, value);
@@ -65,7 +66,7 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
     if (key == "XYUnits" && !value.empty()) surface.lateral_unit_open = false;
     if (key == "XYUnits" && !value.empty() && value != "m")
       refuse(file,
-             "has its size in '" + std::string(value.substr(0, 20)) + "', which is not metres");
+             "has its size in '" + std::string(value.substr(0, 20)) + "', which is not in metres");
   }
   const std::size_t data = end + 4 - end % 4;
   if (nx == 0 || ny == 0) refuse(file, "lacks XRes or YRes in its GSF header");

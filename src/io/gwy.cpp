@@ -19,9 +19,10 @@
 
 /// "GWYP", then one object: its type as text, its size, its components. A component is a name, a
 /// letter for its type, and a value: b (1 byte), c (1), i (4), q (8), d (double), s (text), o (an
-/// object), or their capital letters for arrays, which begin with their number. Texts end with NUL,
-/// numbers are little-endian, sizes have four bytes. Channel N of a file is the object /N/data, and
-/// /N/mask marks its points. Source: "Gwyddion file formats", part "GWY", of Gwyddion's user guide.
+/// object). A capital letter denotes an array, which begins with its number of items. Texts end
+/// with NUL, numbers are little-endian, sizes have four bytes. Channel N of a file is the object
+/// /N/data, and /N/mask marks its points. Source: "Gwyddion file formats", part "GWY", of
+/// Gwyddion's user guide.
 namespace salebra::detail {
 namespace {
 
@@ -36,8 +37,8 @@ T number_at(std::string_view bytes) {
   return value;
 }
 
-/// Bytes that are taken from the front. Whatever a file declares, nothing beyond its end is
-/// touched.
+/// Takes bytes from the front of a content. Whatever sizes a file declares, nothing beyond the end
+/// of the content is read.
 class Bytes {
  public:
   Bytes(const std::filesystem::path& file, std::string_view rest) : file_(file), rest_(rest) {}
@@ -56,12 +57,12 @@ class Bytes {
   }
   std::string_view text() {
     const std::size_t end = rest_.find('\0');
-    if (end == std::string_view::npos) refuse(file_, "has a text without an end; it is damaged");
+    if (end == std::string_view::npos) refuse(file_, "has a text that does not end; it is damaged");
     const std::string_view found = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
     return found;
   }
-  /// The type of an object, and its components.
+  /// Takes an object: its type and the bytes of its components.
   std::pair<std::string_view, std::string_view> object() {
     const std::string_view type = text();
     return {type, take(number<std::uint32_t>())};
@@ -74,7 +75,7 @@ class Bytes {
 
 struct Component {
   char type = 0;
-  std::string_view value;  ///< without the number of an array's items; with the type of an object
+  std::string_view value;  ///< of an array: only its items; of an object: its type too
 };
 
 using Components = std::map<std::string_view, Component>;
@@ -95,7 +96,7 @@ std::string_view value_of(const std::filesystem::path& file, char type, Bytes& b
   const std::uint64_t items = bytes.number<std::uint32_t>();
   if (const auto index = arrays.find(type); index < sizes.size() - 1)
     return bytes.take(items * sizes[index + 1]);
-  // Nothing is needed of arrays of texts and objects but where they end.
+  // Arrays of texts and of objects are skipped, since no reader needs them.
   for (std::uint64_t item = 0; item < items; ++item) {
     if (type == 'S')
       bytes.text();
@@ -105,8 +106,8 @@ std::string_view value_of(const std::filesystem::path& file, char type, Bytes& b
   return {};
 }
 
-/// Objects within are taken as a whole: only those that are asked for are looked into, so that no
-/// nesting is too deep.
+/// The components of an object by their names. Nested objects stay unparsed until they are
+/// requested, so deep nesting does no harm.
 Components components_of(const std::filesystem::path& file, std::string_view content) {
   Components all;
   Bytes bytes(file, content);
@@ -118,7 +119,8 @@ Components components_of(const std::filesystem::path& file, std::string_view con
   return all;
 }
 
-/// The components of an object of that type; none where there is no such object.
+/// The components of the object that `within` contains under this name, if it is of this type;
+/// otherwise nothing.
 std::optional<Components> object_in(const std::filesystem::path& file, const Components& within,
                                     std::string_view name, std::string_view type) {
   const auto found = within.find(name);
@@ -145,7 +147,7 @@ T number_in(const std::filesystem::path& file, const Components& field, std::str
   return number_at<T>(found->second.value);
 }
 
-/// Values of a data field, which must be as many as its points.
+/// The bytes of the heights of a data field. Throws unless there is one value per point.
 std::string_view values_of(const std::filesystem::path& file, const Components& field) {
   const auto nx = number_in<std::int32_t>(file, field, "xres", 'i'),
              ny = number_in<std::int32_t>(file, field, "yres", 'i');
@@ -154,11 +156,11 @@ std::string_view values_of(const std::filesystem::path& file, const Components& 
       data->second.value.size() / sizeof(double) !=
           static_cast<std::uint64_t>(nx) * static_cast<std::uint64_t>(ny))
     refuse(file, "declares " + std::to_string(nx) + " x " + std::to_string(ny) +
-                     " points in a channel that holds another number of them; it is damaged");
+                     " points in a channel that holds a different number; it is damaged");
   return data->second.value;
 }
 
-/// N of "/N/data"; none for other names.
+/// The number N in the name "/N/data" of a component; nothing for other names.
 std::optional<std::uint32_t> channel_of(std::string_view name) {
   constexpr std::string_view end = "/data";
   if (!name.starts_with('/') || !name.ends_with(end) || name.size() <= end.size() + 1) return {};
@@ -170,7 +172,7 @@ std::optional<std::uint32_t> channel_of(std::string_view name) {
   return channel;
 }
 
-/// The text and numbers of components, for the writer.
+// The following functions return the bytes of components, from which the writer composes a file.
 std::string text_bytes(std::string_view text) { return std::string(text) + '\0'; }
 
 template <class T>
@@ -184,7 +186,7 @@ std::string component(std::string_view name, char type, T value) {
 }
 
 std::string text_component(std::string_view name, std::string_view text) {
-  // A text ends at its first NUL.
+  // A NUL would end the text early, so the text is cut there.
   return text_bytes(name) + 's' + text_bytes(text.substr(0, text.find('\0')));
 }
 
@@ -194,7 +196,7 @@ std::string object_component(std::string_view name, std::string_view type,
          number_bytes(static_cast<std::uint32_t>(components.size())) + components;
 }
 
-/// A data field of the grid but for its values, which follow.
+/// The bytes of a data field that come before its values.
 std::string field_head(std::string_view name, const Grid2D& grid, std::string_view unit) {
   const std::string facts =
       component("xres", 'i', static_cast<std::int32_t>(grid.nx)) +
@@ -213,14 +215,15 @@ std::string field_head(std::string_view name, const Grid2D& grid, std::string_vi
 LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view content,
                        const std::string& channel) {
   const auto [kind, whole] = Bytes(file, content.substr(gwy_magic.size())).object();
-  if (kind != "GwyContainer") refuse(file, "holds no GwyContainer; is it a file of Gwyddion 2?");
+  if (kind != "GwyContainer")
+    refuse(file, "does not contain a GwyContainer; is it a file of Gwyddion 2?");
   const Components container = components_of(file, whole);
   std::map<std::uint32_t, Components> fields;
   for (const auto& [name, value] : container)
     if (const auto number = channel_of(name))
       if (auto field = object_in(file, container, name, "GwyDataField"))
         fields[*number] = std::move(*field);
-  if (fields.empty()) refuse(file, "holds no channel; export one from Gwyddion");
+  if (fields.empty()) refuse(file, "does not contain a channel; export one from Gwyddion");
   std::vector<Channel> channels;
   for (const auto& [number, field] : fields) {
     const auto title = container.find("/" + std::to_string(number) + "/data/title");
@@ -246,7 +249,7 @@ LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view conte
   if (mask) {
     marks = values_of(file, *mask);
     if (number_in<std::int32_t>(file, *mask, "xres", 'i') != nx || marks.size() != values.size())
-      refuse(file, "has a mask that is not of the size of its channel; it is damaged");
+      refuse(file, "has a mask whose size differs from its channel; it is damaged");
   }
   surface.heights = heights_of(file, nx, ny);
   for (Index iy = 0; iy < ny; ++iy) {
@@ -274,10 +277,9 @@ void write_gwy(const std::filesystem::path& file, const Surface& surface,
                       bytes = start.size() + heights.size() + values +
                               (mask.empty() ? 0 : mask.size() + values);
   if (bytes > std::numeric_limits<std::uint32_t>::max())
-    throw InvalidInput(file.string(),
-                       "would be larger than 4 GiB, which .gwy cannot be; write .h5");
-  // Gwyddion computes with every value of a channel: undefined points get a height among the
-  // others.
+    throw InvalidInput(file.string(), "would be larger than 4 GiB, the limit of .gwy; write .h5");
+  // Gwyddion computes with every value of a channel, masked or not, so undefined points get the
+  // mean height.
   double sum = 0;
   for (const double height : surface.heights.reshaped()) sum += std::isnan(height) ? 0 : height;
   const Index defined = grid.points() - undefined;

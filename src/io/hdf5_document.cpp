@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain values of an HDF5 file, and their way through the runner that reads it.
+// The content of an HDF5 file as plain values, which a runner reads and hands over.
 #include "hdf5_document.hpp"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ std::atomic<Hdf5Runner> runner = nullptr;
 void run(const Hdf5Reading& reading) {
   if (const Hdf5Runner installed = runner) return installed(reading);
   reading.read([&](std::span<const std::byte> bytes) {
-    if (!bytes.empty()) std::memcpy(reading.location(bytes.size()).data(), bytes.data(), bytes.size());
+    if (!bytes.empty())
+      std::memcpy(reading.location(bytes.size()).data(), bytes.data(), bytes.size());
   });
 }
 
@@ -30,7 +31,7 @@ void set_hdf5_runner(Hdf5Runner installed) { runner = installed; }
 namespace detail::hdf5 {
 namespace {
 
-/// "/", or every name of the path after a slash.
+/// Path in normal form: one slash before each name; "/" for the root.
 std::string normal(std::string_view path) {
   std::string result;
   for (std::size_t begin = 0; begin <= path.size();) {
@@ -48,8 +49,8 @@ const AttributeValue* attribute_of(const Object& object, std::string_view name) 
 }
 
 Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
-  // Unpacking and conversion take 40 MB/s on the slowest machine that is to be expected; a file
-  // that takes more keeps HDF5 in circles.
+  // Processor time that a runner may use. Even a slow machine unpacks and converts 40 MB/s; if a
+  // file takes longer, it is damaged and has sent HDF5 into an endless loop.
   constexpr std::uint64_t slowest = 40'000'000, least = 5;
   Hdf5Reading reading;
   reading.file = file.path();
@@ -61,10 +62,11 @@ Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
 }
 
 [[noreturn]] void wrong_answer(const std::filesystem::path& file) {
-  refuse(file, "makes the HDF5 library give a wrong answer; it is damaged");
+  refuse(file, "makes the HDF5 library return wrong values; it is damaged");
 }
 
-/// Whether an object of a file of so many bytes can be what it says, however it came here.
+/// Whether the properties of an object are possible in a file of this size. They may come from a
+/// child process that the file has compromised.
 bool is_sound(const Object& object, std::uint64_t file_size) {
   const auto known = [](Object::Kind kind) { return kind <= Object::Kind::refused; };
   if (!known(object.kind)) return false;
@@ -74,7 +76,8 @@ bool is_sound(const Object& object, std::uint64_t file_size) {
   std::uint64_t doubles = sizeof(double);
   for (const std::uint64_t extent : object.shape)
     if (__builtin_mul_overflow(doubles, extent, &doubles)) return false;
-  if (object.location && (doubles > file_size || *object.location > file_size - doubles)) return false;
+  if (object.location && (doubles > file_size || *object.location > file_size - doubles))
+    return false;
   return doubles <= max_bytes(file_size) &&
          (!object.numbers || object.numbers->size() == object.count());
 }
@@ -104,13 +107,13 @@ std::uint64_t max_bytes(std::uint64_t file_size) {
 }
 
 Document::Document(InputFile file) : file_(std::move(file)) {
-  if (!file_.is_hdf5()) refuse(path(), "is no HDF5 file; name one");
+  if (!file_.is_hdf5()) refuse(path(), "is not an HDF5 file; name one");
   std::string bytes;
   Hdf5Reading reading = reading_of(file_, 0);
   reading.read = [&](const HandOver& hand_over) { read_outline(file_, hand_over); };
   reading.location = [&](std::size_t count) {
     if (count > max_bytes(file_.size()) - bytes.size())
-      refuse(path(), "has an outline larger than its content; it is damaged");
+      refuse(path(), "has a structure larger than its content; it is damaged");
     bytes.resize(bytes.size() + count);
     return std::as_writable_bytes(std::span(bytes)).last(count);
   };
@@ -126,8 +129,21 @@ Document::Document(InputFile file) : file_(std::move(file)) {
   if (!objects_.contains("/")) wrong_answer(path());
 }
 
+std::string former_name(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+      {"solution", "answer"},       {"assumptions", "premises"},    {"_springs", "_levels"},
+      {"intervals", "levels"},      {"max_spot_", "largest_spot_"}, {"_at_min_gap", "_closest"},
+      {"_at_max_gap", "_farthest"}, {"verdicts", "conditions"},     {"ensemble_warnings", "flags"}};
+  std::string former(name);
+  for (const auto& [now, before] : renamed)
+    if (const auto at = former.find(now); at != std::string::npos)
+      former.replace(at, now.size(), before);
+  return former;
+}
+
 const Object* Document::find(std::string_view path) const {
-  const auto found = objects_.find(normal(path));
+  auto found = objects_.find(normal(path));
+  if (found == objects_.end()) found = objects_.find(normal(former_name(path)));
   return found == objects_.end() ? nullptr : &found->second;
 }
 
@@ -145,7 +161,7 @@ const Object& Document::dataset(const std::string& path) const {
   if (object->kind == Object::Kind::refused)
     refuse(file_.path(), "has a " + path + " that " + object->refusal);
   if (object->kind == Object::Kind::group)
-    refuse(file_.path(), "has a group and no dataset in " + path);
+    refuse(file_.path(), "has a group instead of a dataset in " + path);
   return *object;
 }
 
@@ -169,7 +185,8 @@ void Document::numbers(const std::string& path, std::span<double> values) const 
   read(path, object, 0, object.shape.empty() ? 1 : object.shape[0], values);
 }
 
-void Document::rows(const std::string& path, const RowPartition& partition, std::span<double> values) const {
+void Document::rows(const std::string& path, const RowPartition& partition,
+                    std::span<double> values) const {
   const Object& object = numeric(path);
   const auto begin = static_cast<std::uint64_t>(partition.begin()),
              end = static_cast<std::uint64_t>(partition.end());

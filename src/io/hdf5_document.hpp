@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,28 +18,29 @@
 #include "input_file.hpp"
 #include "json.hpp"
 
-/// What an HDF5 file says, as plain values: the one interface between HDF5 and everything that
-/// reads.
+/// The content of an HDF5 file as plain values. All readers use HDF5 through this interface.
 namespace salebra::detail::hdf5 {
 
-/// A number of any type, a text, or something else.
+/// A number of any type, a text, or null for an attribute of another type.
 using AttributeValue = std::variant<Json::Null, double, std::string>;
 
-/// A group, a dataset, or what is refused under its name.
+/// A group, a dataset, or an object that is not read; `refusal` then says why.
 struct Object {
   enum class Kind : std::uint8_t { group, numbers, labels, refused };
   Kind kind = Kind::refused;
-  std::string refusal;  ///< why it is not read, as in "is an external link; …"
-  std::vector<std::pair<std::string, AttributeValue>> attributes;  ///< in the order of their names
-  std::vector<std::pair<std::string, Kind>> members;  ///< of a group, in the order of their names
-  std::vector<std::uint64_t> shape;                   ///< of a dataset; empty for a scalar
-  std::vector<std::string> coordinates;               ///< names of a dataset's dimension scales
-  std::vector<std::string> labels;                    ///< of a list of names
-  std::optional<std::vector<double>> numbers;         ///< of a small dataset
-  /// Where the file has the doubles of a dataset as memory has them, one behind the other.
+  std::string refusal;  ///< why the object is not read, as in "is an external link; …"
+  std::vector<std::pair<std::string, AttributeValue>> attributes;  ///< sorted by name
+  std::vector<std::pair<std::string, Kind>> members;               ///< of a group, sorted by name
+  std::vector<std::uint64_t> shape;      ///< of a dataset; empty for a scalar
+  std::vector<std::string> coordinates;  ///< names of a dataset's dimension scales
+  std::vector<std::string> labels;       ///< texts of a list of names
+  /// Values of a small dataset; large ones are read on request.
+  std::optional<std::vector<double>> numbers;
+  /// Offset in the file at which the doubles of the dataset lie one after another, in the byte
+  /// order of this machine. Empty if they are stored in another way.
   std::optional<std::uint64_t> location;
 
-  /// Product of the extents.
+  /// Number of values: the product of the extents.
   std::uint64_t count() const;
   std::optional<double> number(std::string_view attribute) const;
   std::optional<std::string> text(std::string_view attribute) const;
@@ -51,30 +52,36 @@ constexpr void describe(auto&& visit, std::type_identity<Object>) {
        &S::labels, &S::numbers, &S::location);
 }
 
-/// The outline of a file with all attributes and small datasets; large datasets are read when they
-/// are requested. Links and references to other files, symbolic links, external storage, virtual
-/// datasets, and filters other than one shuffle, one deflate and one fletcher32 are refused where
-/// they are requested; nothing beside the file is ever read. Doubles that are neither packed nor in
-/// chunks are read without HDF5, from the place that the outline says.
-/// cost     memory: at most 64 times the file and 256 MB, in the process that reads
+/// Returns the name that version 1.0 used for a path or an attribute, or `name` itself if it has
+/// not changed. Readers try this name if a file does not have the present one.
+std::string former_name(std::string_view name);
+
+/// The outline of an HDF5 file, which contains all attributes and the values of small datasets.
+/// Large datasets are read when they are requested. No other file is ever read: a request is
+/// refused for an object that uses links or references to other files, symbolic links, external
+/// storage or virtual datasets, and also for filters other than one shuffle, one deflate and one
+/// fletcher32. Doubles that are neither packed nor in chunks are read without HDF5, from the offset
+/// that the outline gives.
+/// cost     memory of the process that reads: at most 64 times the file and 256 MB
 class Document {
  public:
-  /// Throws InvalidInput naming the file for what is not HDF5, or damaged.
+  /// Throws InvalidInput naming the file if it is not HDF5 or is damaged.
   explicit Document(InputFile file);
 
   const std::filesystem::path& path() const { return file_.path(); }
-  /// The object at "curve/pressure"; "/" is the root. nullptr: there is none.
+  /// The object at a path such as "curve/pressure"; "/" is the root. nullptr if there is none.
   const Object* find(std::string_view path) const;
-  /// The object of that kind. Throws InvalidInput where there is none, and where it is refused.
+  /// The group or dataset at this path. Throws InvalidInput if there is none, or it is of a refused
+  /// kind.
   const Object& group(const std::string& path) const;
   const Object& dataset(const std::string& path) const;
-  /// A dataset whose numbers can be read: count() of them fit in memory. Throws InvalidInput for
-  /// any other.
+  /// The dataset at this path. Throws InvalidInput unless it contains numbers that fit into memory.
   const Object& numeric(const std::string& path) const;
-  /// Copies the values of a dataset of numbers, count() of them, the last dimension contiguous.
-  /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
+  /// Copies the values of a dataset of numbers to `values`, which has the size count(); the index
+  /// of the last dimension varies fastest. Throws InvalidInput as numeric() does, and if the values
+  /// are damaged.
   void numbers(const std::string& path, std::span<double> values) const;
-  /// Reads the rows of a field that a process holds.
+  /// Reads only the rows of a two-dimensional dataset that belong to this process.
   void rows(const std::string& path, const RowPartition& partition, std::span<double> values) const;
 
  private:
@@ -82,25 +89,27 @@ class Document {
             std::span<double> values) const;
 
   InputFile file_;
-  std::map<std::string, Object, std::less<>> objects_;  ///< by normal path: "/", "/curve/pressure"
+  /// The objects of the file by their paths in normal form: "/", "/curve/pressure".
+  std::map<std::string, Object, std::less<>> objects_;
 };
 
-/// What Document may take of a file: bytes of one dataset as doubles.
+/// The largest dataset, in bytes of doubles, that Document reads from a file of this size.
 std::uint64_t max_bytes(std::uint64_t file_size);
 
-/// The two sides of the runner. The reading side is the only one that calls HDF5 on a file.
+/// The functions that a runner calls. Only these functions call HDF5 on a file that is read.
 using HandOver = std::function<void(std::span<const std::byte>)>;
 void read_outline(const InputFile& file, const HandOver& hand_over);
-/// shape       as the outline said; a file that changed since is refused
+/// Reads rows begin … end − 1 of a dataset.
+/// shape       from the outline; if the file now has another shape it is refused
 /// begin, end  along the first dimension
 void read_numbers(const InputFile& file, const std::string& path,
                   const std::vector<std::uint64_t>& shape, std::uint64_t begin, std::uint64_t end,
                   const HandOver& hand_over);
-/// Calls work while no other thread is inside HDF5.
+/// Calls work() while no other thread is inside HDF5.
 void alone(const std::function<void()>& work);
 
-/// Objects with their paths: what the outline hands over as the bytes of base/archive.hpp, of which
-/// Document takes nothing for granted.
+/// Objects with their paths. The outline is handed over as such a list in the bytes of
+/// base/archive.hpp. Document checks all objects.
 using Objects = std::vector<std::pair<std::string, Object>>;
 
 }  // namespace salebra::detail::hdf5

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 file drivers: of an open descriptor, and of a file in the making.
+// HDF5 file drivers: one reads through an open descriptor, one writes a new file to a PagedFile.
 #include "hdf5_drivers.hpp"
 
 #include <sys/stat.h>
@@ -14,24 +14,25 @@
 namespace salebra::detail::hdf5 {
 namespace {
 
-/// What both drivers have in common. HDF5 casts its base to a driver's file and back.
+/// What the files of both drivers have in common. HDF5 sees it as its base class, and the drivers
+/// cast it back.
 struct DriverFile : H5FD_t {
   haddr_t end_of_addresses = 0, end = 0;
 };
 
-/// A class of drivers with the functions that need no more than a DriverFile; the others are the
-/// driver's own.
+/// A driver class with those functions that need only a DriverFile. Each driver adds its own
+/// functions.
 H5FD_class_t driver_class_of(const char* name, std::size_t access_size) {
   H5FD_class_t driver{};
-#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 and later refuse a class without them
+#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 and later require these two members
   driver.version = H5FD_CLASS_VERSION;
-  driver.value = H5_VFD_RESERVED;  // the first number that is not of a driver of HDF5's own
+  driver.value = H5_VFD_RESERVED;  // the first number that is free for drivers outside HDF5
 #endif
   driver.name = name;
   driver.maxaddr = std::numeric_limits<std::int64_t>::max();
   driver.fc_degree = H5F_CLOSE_WEAK;
   driver.fapl_size = access_size;
-  // Without a comparison HDF5 would take two files for one.
+  // Compares two open files; without this function HDF5 would take them for the same file.
   driver.cmp = [](const H5FD_t* a, const H5FD_t* b) { return a < b ? -1 : a > b ? 1 : 0; };
   driver.get_eoa = [](const H5FD_t* file, H5FD_mem_t) {
     return static_cast<const DriverFile*>(file)->end_of_addresses;
@@ -100,7 +101,7 @@ H5FD_class_t driver_class() {
   return driver;
 }
 
-/// What a file access property list carries.
+/// What a file access property list passes to the driver.
 struct Access {
   PagedFile* pages;
 };
@@ -122,7 +123,8 @@ herr_t close_new(H5FD_t* file) {
   return 0;
 }
 
-/// As HDF5's own driver of files in memory has it, on which the layout of the file depends.
+/// Declares the same features as HDF5's own driver of files in memory, since the layout of the file
+/// depends on them.
 herr_t features_of_new(const H5FD_t*, unsigned long* features) {
   *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
               H5FD_FEAT_AGGREGATE_SMALLDATA;
@@ -152,7 +154,8 @@ herr_t lengthen_new(H5FD_t* file, hid_t, hbool_t) {
   return 0;
 }
 
-/// Nothing else writes to this file. HDF5 marks a file as open only where it can lock it.
+/// Locking does nothing, because nobody else writes to this file. HDF5 needs the function, since it
+/// marks a file as open only if it can lock it.
 herr_t lock_new(H5FD_t*, hbool_t) { return 0; }
 herr_t unlock_new(H5FD_t*) { return 0; }
 
@@ -190,7 +193,8 @@ File open_descriptor(int descriptor) {
   static const hid_t id = H5FDregister(&driver);
   const Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare reading");
   check(H5Pset_driver(access, id, &descriptor), "prepare reading");
-  // A name must be there. HDF5 would look for the folder of one that is relative.
+  // HDF5 requires a name, which the driver does not use. It must be absolute; otherwise HDF5 looks
+  // for the folder of the name.
   return {H5Fopen("/descriptor", H5F_ACC_RDONLY, access), "open it as HDF5"};
 }
 
@@ -251,7 +255,8 @@ std::vector<char>& PagedFile::page(std::uint64_t start) {
   return pages_.emplace(start, std::move(bytes)).first->second;
 }
 
-/// Where the disk fails, the pages stay, so that HDF5 finds what it wrote.
+/// If the disk fails, the pages stay in memory, so that HDF5 can still read what it wrote; the
+/// error is thrown later.
 void PagedFile::write_pages() {
   if (failure_) return;
   try {

@@ -12,32 +12,34 @@
 
 namespace salebra::detail::hdf5 {
 
-/// The HDF5 file behind an open descriptor, which stays the caller's. Nothing is opened by name,
-/// locked or written.
+/// Opens the HDF5 file behind an open descriptor, which still belongs to the caller. Nothing is
+/// opened by name, locked or written.
 File open_descriptor(int descriptor);
 
-/// The error number of a read of this thread that the system refused since open_descriptor(); 0
-/// where none. HDF5 takes what it cannot read of an optional message for absent.
+/// The error number (errno) of a failed read of this thread since open_descriptor(); 0 if none
+/// failed. HDF5 does not report all failed reads: it treats an optional part of a header that it
+/// cannot read as absent.
 int failed_read();
 
-/// The bytes of an HDF5 file in the making: pages in memory, which go to the file when there are
-/// too many. What is not written is a hole, such as the fields that other processes write. HDF5
-/// never sees that the disk fails: require_written() and finish() throw it. The layout is that of
-/// HDF5's own files in memory.
+/// The bytes of an HDF5 file that is being written. They are kept in pages in memory, which are
+/// written to the file when there are too many. Bytes that this object does not write, such as the
+/// fields of other processes, stay holes of the file. HDF5 never sees a failure of the disk;
+/// require_written() and finish() throw it. The layout of the file is that of HDF5's own files in
+/// memory.
 /// cost     memory: a megabyte
 class PagedFile {
  public:
   static constexpr std::size_t page_size = 1 << 16, max_pages = 16;
 
-  /// The file must outlive this.
+  /// The AtomicFile must outlive this object.
   explicit PagedFile(AtomicFile& file) : file_(file) {}
   void write(std::uint64_t location, const char* bytes, std::size_t count);
-  /// Holes are zeros.
+  /// Reads bytes that were written; holes read as zeros.
   void read(std::uint64_t location, char* bytes, std::size_t count);
-  /// Throws the IoError of the first byte that the system did not take.
+  /// Throws the IoError of the first write that failed.
   void require_written() const;
-  /// Writes what is still in memory to the file, which becomes so long. Throws as
-  /// require_written() does.
+  /// Writes the pages that are still in memory, and sets the size of the file. Throws the IoError
+  /// of the first write that failed.
   void finish(std::uint64_t size);
 
  private:
@@ -46,15 +48,15 @@ class PagedFile {
   void read_back(std::uint64_t location, char* bytes, std::size_t count);
 
   AtomicFile& file_;
-  std::map<std::uint64_t, std::vector<char>> pages_;  ///< by place
+  std::map<std::uint64_t, std::vector<char>> pages_;  ///< by offset in the file
   std::uint64_t end_on_disk_ = 0;
   std::exception_ptr failure_;
 };
 
-/// A new file in pages, which must outlive it.
+/// Creates an HDF5 file whose bytes go to `pages`, which must outlive the file.
 File create_in(PagedFile& pages);
 
-/// Bytes of a flushed file.
+/// Size of an HDF5 file that has been flushed, bytes.
 std::uint64_t size_of(hid_t file);
 
 }  // namespace salebra::detail::hdf5

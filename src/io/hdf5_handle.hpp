@@ -8,14 +8,17 @@
 #include <utility>
 #include <vector>
 
-/// HDF5 identifiers that close themselves, and calls that throw IoError naming what failed.
+/// HDF5 identifiers that close themselves, and calls of HDF5 that throw IoError with the failed
+/// operation.
 namespace salebra::detail::hdf5 {
 
-/// HDF5 must not print: its errors are thrown. To be called by everything that enters the library.
+/// Keeps HDF5 from printing its errors, because they are thrown as exceptions. Must be called
+/// before every use of HDF5.
 inline void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-/// Handles of this thread that a destructor could not close. Closing writes what HDF5 holds back: a
-/// writer compares this number before and after.
+/// Number of handles of this thread that a destructor could not close. Closing a handle writes what
+/// HDF5 has buffered, so a writer compares this number before and after its
+/// work.
 inline int& failed_closes() {
   thread_local int count = 0;
   return count;
@@ -25,7 +28,7 @@ template <herr_t (*close)(hid_t)>
 class Handle {
  public:
   Handle() = default;
-  /// what   completes "cannot <what>"
+  /// what   the operation, completes the message "cannot <what>"
   Handle(hid_t id, const std::string& what) : id_(id) {
     if (id < 0) throw IoError("cannot " + what);
   }
@@ -38,7 +41,7 @@ class Handle {
     if (id_ >= 0 && close(id_) < 0) ++failed_closes();
   }
   operator hid_t() const { return id_; }
-  /// Closes now and says whether that worked; the destructor cannot.
+  /// Closes the identifier now and returns whether that worked; the destructor cannot report it.
   [[nodiscard]] bool closed() { return close(std::exchange(id_, -1)) >= 0; }
 
  private:
@@ -68,8 +71,8 @@ inline std::vector<hsize_t> shape_of(hid_t dataset) {
   return shape;
 }
 
-/// How a file is to be created: in the earliest format that holds it, so that the bytes are those of
-/// every version of HDF5. Its version 2.0 would take another format by default.
+/// Properties for creating files in the earliest format that can hold them. Every version of HDF5
+/// then writes the same bytes; HDF5 2.0 would use another format by default.
 inline Properties creation_access() {
   const std::string what = "prepare a file";
   Properties access(H5Pcreate(H5P_FILE_ACCESS), what);

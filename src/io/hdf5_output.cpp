@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 file in the making: datasets with units, long names and dimension scales.
+// Writer of HDF5 files: datasets with units, long names and dimension scales.
 #include "hdf5_output.hpp"
 
 #include <hdf5_hl.h>
@@ -8,13 +8,14 @@
 #include <array>
 #include <bit>
 #include <numeric>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/version.hpp>
 
 namespace salebra::detail::hdf5 {
 namespace {
 
-/// Types in the file are little-endian whatever the machine, so that a file is the same everywhere.
+/// Type of a number in the file and in memory. In the file it is little-endian on every machine, so
+/// files have the same bytes everywhere.
 struct Types {
   hid_t file, memory;
 };
@@ -38,7 +39,7 @@ std::string joined(const std::vector<hsize_t>& shape) {
   return text.empty() ? "a scalar" : text;
 }
 
-/// The dimension scales that a dataset lies on.
+/// The dimension scales (coordinates) of a dataset.
 struct Scales {
   std::vector<Dataset> handles;
   std::vector<hsize_t> shape;
@@ -48,10 +49,10 @@ Scales scales_of(hid_t group, const std::string& name, const std::vector<std::st
   Scales scales;
   for (const std::string& dimension : dimensions) {
     require(H5Lexists(group, dimension.c_str(), H5P_DEFAULT) > 0, "dimension", dimension,
-            "is no coordinate of the group of " + name + "; write it first");
+            "is not a coordinate of the group of " + name + "; write it first");
     scales.handles.emplace_back(H5Dopen2(group, dimension.c_str(), H5P_DEFAULT),
                                 "open " + dimension);
-    require(H5DSis_scale(scales.handles.back()) > 0, "dimension", dimension, "is no coordinate");
+    require(H5DSis_scale(scales.handles.back()) > 0, "dimension", dimension, "is not a coordinate");
     scales.shape.push_back(shape_of(scales.handles.back()).at(0));
   }
   return scales;
@@ -72,7 +73,8 @@ std::string_view bytes_of(const T* values, Index count) {
   return {reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(T)};
 }
 
-/// Writes a field as float, without a copy of all.
+/// Writes a field as float32, in blocks, because a converted copy of the whole field would need
+/// more memory.
 void write_rounded(const std::filesystem::path& target, int descriptor, std::uint64_t location,
                    const Field& values) {
   constexpr Index most = 1 << 18;
@@ -87,7 +89,7 @@ void write_rounded(const std::filesystem::path& target, int descriptor, std::uin
 
 void require_free(hid_t group, const std::string& name) {
   require(!name.empty() && name.find('/') == std::string::npos, "dataset", "'" + name + "'",
-          "is no name");
+          "is not a valid name");
   require(H5Lexists(group, name.c_str(), H5P_DEFAULT) <= 0, "dataset", name,
           "is in the file already");
 }
@@ -96,7 +98,9 @@ void require_free(hid_t group, const std::string& name) {
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
                const WriteOptions& options, const Communicator& communicator, Fields fields)
-    : target_(file), communicator_(communicator), copies_fields_(communicator.alone() && fields == Fields::copied) {
+    : target_(file),
+      communicator_(communicator),
+      copies_fields_(communicator.alone() && fields == Fields::copied) {
   if (!communicator_.is_root()) return;
   atomic_.emplace(file, options);
   be_silent();
@@ -155,8 +159,8 @@ void Output::attribute(hid_t object, const std::string& name, std::uint64_t valu
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {
   if (!communicator_.is_root()) return;
-  // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the
-  // 64 KiB of an object header.
+  // Texts have variable length: h5py and xarray read these as str, texts of fixed length as bytes.
+  // They may also exceed the 64 KiB of an object header.
   const Type type = text_type(H5T_VARIABLE);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
@@ -183,7 +187,7 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
                              creation, H5P_DEFAULT),
                   "write " + name);
   if (spread) {
-    // Room is allotted by the first number that is written.
+    // Writes one number, since HDF5 then allocates the space of the dataset in the file.
     const std::vector<hsize_t> first(shape.size(), 0), one(shape.size(), 1);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, one.data(), nullptr),
           "write " + name);
@@ -227,7 +231,8 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
   const auto first = static_cast<float>(*values.data());
   Dataset result = single ? create(group, name, &first, scales.shape, label, true)
                           : create(group, name, values.data(), scales.shape, label, true);
-  // A file of several processes has no block before its superblock, which this would count from.
+  // This offset counts from the superblock, which is at the beginning of the file, since the file
+  // has no user block.
   const haddr_t location = H5Dget_offset(result);
   check(location == HADDR_UNDEF ? -1 : 0, "place " + name);
   spread_.push_back({location, static_cast<std::int64_t>(scales.shape[0]),
@@ -296,7 +301,7 @@ void Output::write_fields() {
     const OthersFile file(temporary, target_);
     for (std::size_t k = 0; k < spread_.size(); ++k) {
       const auto& [location, rows, columns] = spread_[k];
-      const RowPartition share(communicator_, rows);
+      const RowPartition partition(communicator_, rows);
       const Field& mine = *fields_[k].values;
       require(mine.rows() == partition.count() && mine.cols() == columns, "field", mine.rows(),
               "rows are not those of this process");

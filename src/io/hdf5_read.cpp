@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only calls of HDF5 on files that are read: their outline, and the numbers of one dataset.
+// The only functions that call HDF5 on a file that is read. They read the outline of the file, or
+// the numbers of one dataset.
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -15,13 +16,14 @@
 namespace salebra::detail::hdf5 {
 namespace {
 
-/// Datasets of at most so many values come along with the outline.
+/// The outline contains the values of datasets that have at most this number of values.
 constexpr std::uint64_t small_dataset = 8192;
 constexpr std::size_t deepest = 32, longest_path = 4096, longest_fixed_text = 1 << 20;
-/// Bytes of doubles that are handed over at a time, where chunks are not larger.
+/// Number of bytes of doubles that are handed over at a time; more if a chunk is larger.
 constexpr std::uint64_t block_bytes = 1 << 20;
 
-/// What H5Oget_info2() fills in: HDF5 1.12 gave its name to another type.
+/// The type that H5Oget_info2() fills in. In HDF5 1.12 and later the name H5O_info_t means another
+/// type.
 #if H5_VERSION_GE(1, 12, 0)
 using ObjectInfo = H5O_info1_t;
 #else
@@ -60,7 +62,8 @@ std::string text_of(hid_t attribute, hid_t type, const std::string& what) {
   return text;
 }
 
-/// The value of a scalar attribute that is a number, h5py's boolean or a text; nothing for others.
+/// The value of a scalar attribute if it is a number, a boolean as h5py writes it, or a text;
+/// otherwise null.
 AttributeValue value_of(hid_t object, const std::string& name) {
   const std::string what = "read the attribute " + name;
   const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), what);
@@ -82,8 +85,8 @@ AttributeValue value_of(hid_t object, const std::string& name) {
   return value;
 }
 
-/// Names of scales by their places in the file. HDF5 finds the name of one by a search of the file,
-/// which for each axis of each dataset took nine tenths of reading a study.
+/// Names of dimension scales by their addresses in the file. HDF5 would search the file for each
+/// name, which took nine tenths of the time to read a study.
 using ScaleNames = std::map<haddr_t, std::string>;
 
 std::string name_of(hid_t scale) {
@@ -110,9 +113,9 @@ std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank, ScaleNa
   return names;
 }
 
-/// Why a dataset would be read from elsewhere, or through what nobody has checked; empty if it is
-/// not. To be called before its shape is requested: HDF5 opens the sources of a virtual dataset for
-/// that.
+/// The reason to refuse a dataset for the way it is stored: its values lie in other files, or a
+/// filter is not on the list of allowed ones. Empty if there is none. Must be called before the
+/// shape is requested: for a virtual dataset, HDF5 would then open the source files.
 std::string strange_storage(hid_t properties) {
   if (H5Pget_layout(properties) == H5D_VIRTUAL)
     return "is a virtual dataset, whose values lie in other files; store the values themselves";
@@ -140,8 +143,9 @@ std::vector<hsize_t> chunk_of(hid_t properties, std::size_t rank) {
   return chunk;
 }
 
-/// Why the numbers of a dataset are more than the file can hold, or take more memory than they may;
-/// empty if they do not. A damaged or hostile header must not decide how much memory is allocated.
+/// The reason to refuse a dataset for its size: it is larger than the file can contain, or takes
+/// more memory than allowed. Empty if there is none. Thus a damaged or hostile header cannot decide
+/// how much memory is allocated.
 std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
                    const std::vector<hsize_t>& shape) {
   const Type type(H5Dget_type(dataset), "read its type");
@@ -155,16 +159,16 @@ std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
     if (__builtin_mul_overflow(bytes, extent, &bytes) ||
         __builtin_mul_overflow(doubles, extent, &doubles))
       return "is larger than any memory; the file is damaged";
-  // No deflate stream is shorter than 1/1032 of its content.
+  // A deflate stream has at least 1/1032 of the size of its content.
   constexpr hsize_t best_compression = 1032;
   const bool packed = H5Pget_nfilters(properties) > 0;
   if (bytes / (packed ? best_compression : 1) >
       std::min<hsize_t>(H5Dget_storage_size(dataset), file.size()))
-    return "is larger than what the file holds of it; the file is truncated or damaged";
+    return "is larger than its data in the file; the file is truncated or damaged";
   if (doubles > max_bytes(file.size()))
     return "takes " + std::to_string(doubles) + " bytes unpacked, too many for a file of " +
            std::to_string(file.size()) + "; store it without deflate";
-  // A chunk is unpacked whole, however little of it the dataset needs.
+  // HDF5 unpacks whole chunks, even if the dataset needs only a small part of one.
   constexpr hsize_t any_chunk = 16 << 20;
   hsize_t chunk_bytes = size;
   for (const hsize_t extent : chunk_of(properties, shape.size()))
@@ -174,7 +178,8 @@ std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
   return {};
 }
 
-/// Where doubles stand in the file as this machine has them; nothing where HDF5 unpacks or converts.
+/// Offset in the file of the doubles of a dataset, if they need no unpacking or conversion;
+/// otherwise nothing.
 std::optional<std::uint64_t> place_of(hid_t dataset, hid_t type, hid_t properties,
                                       std::uint64_t count) {
   if (H5Pget_layout(properties) != H5D_CONTIGUOUS || H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0 ||
@@ -200,12 +205,13 @@ class Outline {
  private:
   using Any = Handle<H5Oclose>;
 
-  /// What the outline takes of memory is counted: many links to one object would otherwise multiply
-  /// it.
+  /// Counts the memory of the outline and throws if it is too large: many links to one object would
+  /// multiply it.
   void take(std::uint64_t bytes) {
     if (bytes > bytes_left_)
-      refuse(file_.path(),
-             "has more groups, links and attributes than a file of its size should; it is damaged");
+      refuse(
+          file_.path(),
+          "has more groups, links and attributes than a file of its size can hold; it is damaged");
     bytes_left_ -= bytes;
   }
 
@@ -229,11 +235,11 @@ class Outline {
       check(H5Oget_info2(opened, &info, H5O_INFO_BASIC), "read " + path);
       if (info.type == H5O_TYPE_DATASET) return visit_dataset(path, opened);
       if (info.type != H5O_TYPE_GROUP) return refuse_object(path, "is neither group nor dataset");
-      // A group within itself, or reached by many ways, would be listed without end.
+      // A group that contains itself, or can be reached by many paths, would be listed without end.
       if (!groups_.insert(info.addr).second)
-        return refuse_object(path, "is a group that has another name too; give it one");
+        return refuse_object(path, "is a group with several names; give it one");
       if (depth > deepest)
-        return refuse_object(path, "lies too deep in groups; the file is damaged");
+        return refuse_object(path, "is nested too deeply in groups; the file is damaged");
       return visit_group(path, opened, depth);
     } catch (const IoError& error) {
       return refuse_object(path, std::string(error.what()) + "; the file is truncated or damaged");
@@ -307,7 +313,7 @@ class Outline {
   void read_labels(hid_t id, hid_t type, Object& object) {
     if (H5Tis_variable_str(type) <= 0 || object.shape.size() != 1 ||
         H5Dget_storage_size(id) < object.shape[0]) {
-      object.refusal = "is no list of names";
+      object.refusal = "is not a list of names";
       return;
     }
     take(8 * object.shape[0]);
@@ -342,8 +348,8 @@ class Outline {
   ScaleNames scale_names_;
 };
 
-/// Rows of the first dimension that are read at a time: whole chunks, so that none is unpacked
-/// twice.
+/// Number of indices of the first dimension to read at a time: whole chunks, so that no chunk is
+/// unpacked twice.
 hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
   hsize_t row = sizeof(double);
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
@@ -352,12 +358,12 @@ hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
   return std::max<hsize_t>(block_bytes / std::max<hsize_t>(row, 1) / step, 1) * step;
 }
 
-/// Calls HDF5, and says of the file what HDF5 refuses. The work calls its argument before it hands
-/// anything over.
+/// Calls work(check), which calls HDF5, and turns HDF5's errors into exceptions that name the file.
+/// check() throws if a read has failed; work must call it before it hands anything over.
 template <class Work>
 void about(const InputFile& file, const Work& work) {
   be_silent();
-  H5PLset_loading_state(0);  // filters from elsewhere
+  H5PLset_loading_state(0);  // forbids HDF5 to load filters from plug-ins
   const auto require_read = [&] {
     if (const int error = failed_read(); error != 0)
       throw IoError(file.path().string() + ": cannot be read (" + std::strerror(error) +
@@ -425,7 +431,7 @@ void read_numbers(const InputFile& file, const std::string& path,
 
 void alone(const std::function<void()>& work) {
   be_silent();
-  // HDF5 holds its own lock while it calls back, hence no other thread is between two states of it.
+  // HDF5 holds its lock while it calls this function, so no other thread is inside HDF5 then.
   const auto call = [](hid_t, const char*, void* argument) -> herr_t {
     (*static_cast<const std::function<void()>*>(argument))();
     return 1;

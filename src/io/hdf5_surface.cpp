@@ -19,7 +19,8 @@ std::string unit_of(const Document& document, const Object& dataset) {
   return unit.empty() ? document.group("/").text("units").value_or("") : unit;
 }
 
-/// `channel`, else `heights`, else the only two-dimensional dataset at the root.
+/// Name of the dataset with the heights: `channel` if it is given, otherwise "heights", otherwise
+/// the only two-dimensional dataset at the root.
 std::string heights_name(const Document& document, const std::string& channel,
                          LoadedSurface& surface) {
   surface.has_channels = true;
@@ -32,7 +33,8 @@ std::string heights_name(const Document& document, const std::string& channel,
     if (kind == Object::Kind::refused) refused = name;
     if (kind == Object::Kind::group || kind == Object::Kind::refused || name == "heights") continue;
     const Object& dataset = document.dataset(name);
-    // Beside heights, maps of pressures and the like are no channels.
+    // If the file has a dataset "heights", other two-dimensional datasets count as channels only if
+    // their unit is a length or is not given. Maps of pressure and the like are no channels.
     const std::string unit = unit_of(document, dataset);
     if (dataset.shape.size() == 2 && (!has_heights || unit.empty() || metres_in(unit)))
       found.push_back({"", name, ""});
@@ -48,17 +50,19 @@ std::string heights_name(const Document& document, const std::string& channel,
                  "has no dataset heights (nx, ny) at its root; store the surface there");
 }
 
-/// A number that an attribute of a dataset must be, where there is one.
+/// The value of a numeric attribute; nothing if there is none. Throws if the attribute is not one
+/// number.
 std::optional<double> number_of(const Document& document, const Object& object,
                                 const std::string& name) {
   const auto found = std::ranges::find(
       object.attributes, name, [](const auto& entry) { return std::string_view(entry.first); });
   if (found == object.attributes.end()) return {};
   if (const auto* number = std::get_if<double>(&found->second)) return *number;
-  refuse(document.path(), "has an attribute " + name + " that is not one number; correct it");
+  refuse(document.path(), "has an attribute " + name + " that is not a single number; correct it");
 }
 
-/// Refuses attributes that speak of units, scales or masks and are not among those that are used.
+/// Refuses a dataset with an attribute about units, scales or masks that is not in `used`, since
+/// this reader would ignore it. whose: the dataset in messages.
 void require_used(const Document& document, const Object& object, const std::string& whose,
                   const std::set<std::string_view>& used) {
   for (const auto& [name, value] : object.attributes) {
@@ -68,12 +72,13 @@ void require_used(const Document& document, const Object& object, const std::str
                                 "valid", "mask", "gain", "calibration"})
       if (word.find(meaning) != std::string::npos)
         refuse(document.path(),
-               "has an attribute " + name + whose + ", which is not used; apply it, and remove it");
+               "has an attribute " + name + whose +
+                   ", which salebra does not apply; apply it and remove the attribute");
   }
 }
 
-/// Turns stored numbers into heights as the conventions for climate and forecast data (CF) have it:
-/// marks of undefined points are stored numbers, and so are the limits of valid ones.
+/// Turns stored numbers into heights by the conventions for climate and forecast data (CF): values
+/// that mark undefined points and limits of valid values apply before scale and offset.
 void unpack(const Document& document, const Object& object, std::span<double> values) {
   const auto number = [&](const char* name) { return number_of(document, object, name); };
   const auto fill = number("_FillValue"), missing = number("missing_value"),
@@ -87,7 +92,7 @@ void unpack(const Document& document, const Object& object, std::span<double> va
           std::ranges::find(object.attributes, "units",
                             &decltype(object.attributes)::value_type::first) &&
       !object.text("units"))
-    refuse(document.path(), "has an attribute units that is no text; correct it");
+    refuse(document.path(), "has an attribute units that is not a text; correct it");
   if (!fill && !missing && !least && !greatest && !scale && !offset) return;
   for (double& value : values) {
     if (value == fill || value == missing || value < least.value_or(value) ||
@@ -97,7 +102,8 @@ void unpack(const Document& document, const Object& object, std::span<double> va
   }
 }
 
-/// One-dimensional heights, with their positions `x` or an attribute size_x.
+/// Completes a line profile: one-dimensional heights, with their positions in the dataset `x` or
+/// with the length in an attribute size_x.
 LoadedSurface read_profile(const Document& document, const std::string& name,
                            LoadedSurface profile) {
   const auto column = [&](const std::string& of) {
@@ -153,7 +159,7 @@ LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& ch
   if (const auto periodic = number("periodic")) surface.periodic = *periodic != 0;
   surface.unit = unit_of(document, heights);
   surface.stated_unit = root.text("source_units").value_or("");
-  const RowPartition share(communicator, static_cast<Index>(heights.shape[0]));
+  const RowPartition partition(communicator, static_cast<Index>(heights.shape[0]));
   surface.rows = partition.rows();
   surface.heights = heights_of(file, partition.count(), static_cast<Index>(heights.shape[1]));
   document.rows(name, partition,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of a line of a header: words, numbers, units, dates.
+// Splits a line of a header into words, numbers, units and dates.
 #include "header_tokens.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Kind = HeaderToken::Kind;
 
 bool is_digit(char symbol) { return symbol >= '0' && symbol <= '9'; }
 
-/// Whether a byte belongs to a word; each byte of a letter beyond ASCII does.
+/// Whether a byte belongs to a word. All bytes of UTF-8 letters beyond ASCII do.
 bool is_letter(char symbol) {
   return (symbol >= 'a' && symbol <= 'z') || (symbol >= 'A' && symbol <= 'Z') ||
          static_cast<unsigned char>(symbol) >= 0x80;
@@ -55,7 +55,8 @@ class Tokenizer {
 
   void next() {
     const char symbol = line_[at_];
-    // Signs that are no letters: degrees, a non-breaking space, times and dashes.
+    // UTF-8 characters that are no letters: non-breaking space, multiplication sign, degree,
+    // dashes.
     if (line_.substr(at_).starts_with("\xc2\xa0")) {
       skip(2);
     } else if (line_.substr(at_).starts_with("\xc3\x97")) {
@@ -81,7 +82,8 @@ class Tokenizer {
     }
   }
 
-  /// Goes on; a number that only blanks follow still takes a unit.
+  /// Skips bytes. If they are only blanks, a unit that follows still belongs to the number before
+  /// them.
   void skip(std::size_t bytes) {
     const bool blank = is_blank(line_[at_]) && line_[at_] != '\t';
     const bool was = at_ == number_end_;
@@ -148,14 +150,15 @@ class Tokenizer {
         rest_of_unit();
         return;
       }
-      // "50x", "3D": a name, no number.
+      // A number followed directly by letters, as in "50x" or "3D", is a name.
       tokens_.back() = {Kind::word, std::string(line_.substr(begin, end - begin))};
       at_ = end;
       number_end_ = 0;
     }
   }
 
-  /// The end of a date, a time or a version at this place; 0 where there is none.
+  /// The index after the date, time or version number that begins at the current position; 0 if
+  /// none does.
   std::size_t date_end() const {
     std::size_t end = at_, groups = 0, longest = 0;
     bool thousands = true;
@@ -177,7 +180,7 @@ class Tokenizer {
     const bool time = between == ':' && groups >= 2 && longest <= 2;
     const bool date = groups >= 3 && between != ':' && !(between == '.' && thousands);
     if (!time && !date) return 0;
-    // Fractions of a second, and the time behind a date: "2026-03-17T10:30:00.5Z".
+    // Accepts fractions of a second, and the time after a date: "2026-03-17T10:30:00.5Z".
     while (is_digit(at(end)) ||
            ((at(end) == '.' || at(end) == ':' || at(end) == 'T') && is_digit(at(end + 1))))
       ++end;
@@ -196,11 +199,11 @@ class Tokenizer {
     while (is_letter(at(end)) || (end > at_ && is_digit(at(end)))) ++end;
     while (end > at_ + 2 && line_.substr(end - 2, 2) == "\xc2\xa0") end -= 2;
     const std::string_view text = line_.substr(at_, end - at_);
-    // "Z/µm", "Z_µm", "Z / µm", "Z - µm"
+    // Here a unit follows a name: "Z/µm", "Z_µm", "Z / µm", "Z - µm".
     const std::string_view before = trimmed(line_.substr(0, at_));
     const bool attached = (before.size() == at_ && before.ends_with('_')) ||
                           before.ends_with('/') || (before.size() < at_ && before.ends_with(" -"));
-    // "w=3 h=2"
+    // The text is the key of another entry, as `h` in "w=3 h=2".
     const bool is_key = at(std::min(line_.find_first_not_of(' ', end), line_.size())) == '=';
     const bool after_number = behind_number() && !is_key;
     if (after_number && (text == "x" || text == "X" || text == "by" || text == "mal")) {
@@ -215,7 +218,7 @@ class Tokenizer {
       at_ = end;
       return;
     }
-    // "in" is a word before a unit, and an inch behind a number.
+    // "in" means inch after a number, but before a unit it is the word "in" ("Z in µm").
     const bool after_in = !tokens_.empty() && tokens_.back().kind == Kind::word &&
                           plain_word(tokens_.back().text) == "in";
     const bool unit_after_in =
@@ -231,7 +234,7 @@ class Tokenizer {
     at_ = end;
   }
 
-  /// A unit as a token; false for a text that is none.
+  /// Adds the text as a token if it is a unit; otherwise returns false.
   bool unit_of(std::string_view text, bool in_bracket) {
     if (in_bracket)
       if (const auto slash = text.find('/'); slash != std::string_view::npos) {
@@ -249,7 +252,7 @@ class Tokenizer {
     return true;
   }
 
-  /// What follows a unit without a blank: "/s", "/pixel", "²".
+  /// Reads what follows a unit without a blank, such as "/s", "/pixel" or "²".
   void rest_of_unit() {
     if (at(at_) == '^' && is_digit(at(at_ + 1))) {
       tokens_.back().kind = Kind::other;
@@ -279,7 +282,7 @@ class Tokenizer {
 
   std::string_view line_;
   std::size_t at_ = 0;
-  std::size_t number_end_ = 0;  ///< of the last number, with the blanks behind it
+  std::size_t number_end_ = 0;  ///< index after the last number and the blanks behind it
   std::vector<HeaderToken> tokens_;
 };
 
@@ -306,7 +309,7 @@ bool is_other_unit(std::string_view text) {
         std::ranges::find(prefixes, text.substr(0, text.size() - stem.size())) !=
             std::end(prefixes))
       return true;
-  // Areas, volumes and rates of lengths.
+  // Endings that turn a length into an area, a volume or a rate.
   for (const std::string_view power :
        {"2", "3", "^2", "^3", "\u00b2", "\u00b3", "/s", "/min", "/h"})
     if (text.ends_with(power) && is_length_unit(text.substr(0, text.size() - power.size())))

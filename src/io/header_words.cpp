@@ -15,7 +15,7 @@ using namespace meaning;
 
 struct Entry {
   Meaning meaning;
-  std::string_view words;  ///< separated by blanks
+  std::string_view words;  ///< words with the same meaning, separated by blanks
 };
 
 constexpr Entry entries[]{
@@ -176,8 +176,9 @@ const std::unordered_map<std::string_view, Meaning>& table() {
   return words;
 }
 
-/// The meanings of a compound's parts, 0 where it is none. Short words are parts of many others by
-/// chance, hence only axes and the "of" of "NumberOfPoints" may have less than three letters.
+/// The meanings of the parts of a compound word; 0 if the word is not made of known parts. Short
+/// words occur in many others by chance, so only axes and the "of" of "NumberOfPoints" may have
+/// fewer than three letters. parts: largest number of parts.
 Meaning meaning_of_parts(std::string_view word, int parts) {
   if (parts == 0) return 0;
   for (std::size_t size = word.size(); size > 0; --size) {
@@ -200,7 +201,7 @@ Meaning meaning_of_parts(std::string_view word, int parts) {
 }  // namespace
 
 std::string plain_word(std::string_view word) {
-  // Letters with marks of Latin-1, from U+00C0 on, in lower case.
+  // Lower-case ASCII for the accented letters of Latin-1, from U+00C0 on.
   constexpr std::string_view latin[]{"a",  "a", "a",  "a", "ae", "a", "ae", "c", "e",  "e", "e",
                                      "e",  "i", "i",  "i", "i",  "d", "n",  "o", "o",  "o", "o",
                                      "oe", "*", "oe", "u", "u",  "u", "ue", "y", "th", "ss"};
@@ -229,7 +230,7 @@ Meaning meaning_of(std::string_view word) {
   const std::string plain = plain_word(word);
   if (plain.empty() || plain.size() > longest) return unknown;
   if (const auto found = table().find(plain); found != table().end()) return found->second;
-  // A number behind a name tells several apart: "Z1".
+  // Removes a number after a name, which distinguishes columns of one kind: "Z1".
   const auto letters = plain.find_last_not_of("0123456789") + 1;
   if (letters > 0 && letters < plain.size())
     if (const auto found = table().find(std::string_view(plain).substr(0, letters));

@@ -6,9 +6,10 @@
 
 namespace salebra {
 
-/// Throws InvalidInput on all processes unless each of them would read the same bytes under this
-/// name, or none has such a file. A file of one file system is known by its number, size and time;
-/// where these differ, one process for each copy reads it whole. Collective.
+/// Throws InvalidInput on all processes unless all of them read the same bytes under this name, or
+/// none has a file of this name. Processes whose files have the same inode number, size and time
+/// share a copy; one process of them reads it. With a single copy nothing is read. All processes
+/// must call.
 void require_one_file(const std::filesystem::path& file, const Communicator& communicator);
 
 }  // namespace salebra

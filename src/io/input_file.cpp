@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files from outside: regular ones only, opened once.
+// Input files: only regular files, each opened once.
 #include "input_file.hpp"
 
 #include <fcntl.h>
@@ -43,7 +43,8 @@ void set_input_watcher(std::function<void(const std::filesystem::path&)> watcher
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
   if (input_watcher) input_watcher(path_);
-  // O_NONBLOCK: a named pipe is opened without waiting for its other end, and then refused.
+  // Without O_NONBLOCK, opening a named pipe would wait for its other end. The pipe is refused
+  // below.
   do {
     descriptor_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   } while (descriptor_ < 0 && errno == EINTR);
@@ -85,7 +86,8 @@ std::string InputFile::head(std::uint64_t bytes) const {
 
 void InputFile::read(std::uint64_t location, std::span<std::byte> bytes) const {
   while (!bytes.empty()) {
-    const ssize_t got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(location));
+    const ssize_t got =
+        pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(location));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) refuse_unreadable(path_, errno);
     if (got == 0) refuse(path_, "ended while it was read; is another program writing it?");
@@ -96,7 +98,8 @@ void InputFile::read(std::uint64_t location, std::span<std::byte> bytes) const {
 
 std::string InputFile::content(std::uint64_t limit) const {
   if (size_ == 0) refuse(path_, "is empty; name another file");
-  // A file with holes takes no room on the disk, whatever its size.
+  // A sparse file may be much larger than the memory, so a large file is limited to the free
+  // memory.
   constexpr std::uint64_t any_memory = 64 << 20;
   if (size_ > any_memory) limit = std::min<std::uint64_t>(limit, available_memory());
   if (size_ > limit)
@@ -138,16 +141,14 @@ void require_one_file(const std::filesystem::path& file, const Communicator& com
   const bool there = stat(file.c_str(), &status) == 0;
   const std::vector<std::string> copies =
       communicator.gather_all(there ? fmt::format("{} {} {} {}", status.st_ino, status.st_size,
-                                           status.st_mtim.tv_sec, status.st_mtim.tv_nsec)
-                             : "");
+                                                  status.st_mtim.tv_sec, status.st_mtim.tv_nsec)
+                                    : "");
   const auto require_equal = [&](const std::vector<std::string>& all) {
     for (std::size_t rank = 1; rank < all.size(); ++rank)
       if (all[rank] != all.front())
-        throw InvalidInput(
-            file.string(),
-            fmt::format("is another file for process {} than for process 1; give all processes "
-                        "the same file",
-                        rank + 1));
+        throw InvalidInput(file.string(), fmt::format("is a different file for process {} than for "
+                                                      "process 1; give all processes the same file",
+                                                      rank + 1));
   };
   if (std::ranges::count(copies, copies.front()) == std::ssize(copies)) return;
   if (std::ranges::find(copies, "") != copies.end()) return require_equal(copies);
@@ -160,7 +161,7 @@ void require_one_file(const std::filesystem::path& file, const Communicator& com
     content = fmt::format("{} {}", input.size(), input.checksum());
   });
   std::vector<std::string> contents = communicator.gather_all(content);
-  // Those of one copy have what its first process read.
+  // Each process that shares a copy gets the checksum from the process that has read the copy.
   for (std::size_t rank = 0; rank < contents.size(); ++rank)
     contents[rank] = contents[static_cast<std::size_t>(std::ranges::find(copies, copies[rank]) -
                                                        copies.begin())];

@@ -11,13 +11,13 @@
 
 namespace salebra::detail {
 
-/// A file from outside, opened once: what is read later is what was judged, whatever happens to its
-/// name. Only a regular file is opened. A pipe or a device would let a reader wait for ever or read
-/// without end.
+/// An input file, opened once. Later reads see the file that was checked, even if its name has
+/// meanwhile been given to another file. Only regular files are opened: a reader could wait forever
+/// for a pipe or a device, or read from it without end.
 class InputFile {
  public:
-  /// Throws InvalidInput naming the file if there is no such regular file, or the user may not read
-  /// it; IoError where the system cannot open it.
+  /// Opens the file. Throws InvalidInput naming the file if there is no such regular file or the
+  /// user may not read it, and IoError if the system cannot open it.
   explicit InputFile(std::filesystem::path path);
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
@@ -27,22 +27,21 @@ class InputFile {
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
 
-  /// Bytes from the start: all, or fewer where the file ends before. Throws IoError where the disk
-  /// does not give them.
+  /// The first bytes of the file; fewer if the file is shorter. Throws IoError if the disk fails.
   std::string head(std::uint64_t bytes) const;
-  /// Fills bytes from a place on, by any number of threads at once. Throws InvalidInput where the
-  /// file ends before, IoError where the disk does not give them.
+  /// Fills `bytes` from the offset `location` on; several threads may call at the same time. Throws
+  /// InvalidInput if the file ends before `bytes` is full, IoError if the disk fails.
   void read(std::uint64_t location, std::span<std::byte> bytes) const;
-  /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and
-  /// for one that does not fit in the memory that is free.
+  /// The whole file. Throws InvalidInput for an empty file, for a file of more than `limit` bytes,
+  /// and for a file that does not fit into the free memory.
   std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;
-  /// Checksum of all bytes, a block at a time: the file may be larger than the memory. Throws
-  /// IoError if the disk does not give them.
+  /// Checksum of all bytes. The file is read in blocks, so it may be larger than the memory. Throws
+  /// IoError if the disk fails.
   std::uint64_t checksum() const;
-  /// Whether the file begins as HDF5 does.
+  /// Whether the file begins with the HDF5 signature.
   bool is_hdf5() const;
-  /// Whether the HDF5 library would take it for its own: the signature may also stand behind a block
-  /// of 512 bytes, or of twice as many, and so on.
+  /// Whether the HDF5 library would accept the file. The signature may also follow a block of 512
+  /// bytes, or of 1024, 2048 and so on, doubling each time.
   bool may_be_hdf5() const;
 
  private:
@@ -51,8 +50,9 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// Is called with the name of each file that is opened from now on, before it is opened; throws to
-/// refuse it. None as at the start. All readers pass through InputFile, hence here too.
+/// Sets a function that is called with the name of each input file before it is opened, and that
+/// throws to refuse the file. By default there is none. All readers open files by InputFile, so
+/// they all call it.
 void set_input_watcher(std::function<void(const std::filesystem::path&)> watcher);
 
 }  // namespace salebra::detail

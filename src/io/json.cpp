@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON values and their text, of json.hpp.
+// JSON values and their text.
 #include "json.hpp"
 
 #include <algorithm>

@@ -13,20 +13,21 @@
 
 namespace salebra {
 
-/// A JSON value to write: null, truth, number, text, array, or object whose members keep the order
-/// in which they came.
-///   Json answer{{"area", 0.1}, {"spots", spots}};   // members; arrays come from std::vector
-///   answer["unit"] = "m^2";                         // null becomes an object, by push_back an array
-/// throws    std::logic_error where a value is not of the kind that is asked for
+/// A JSON value to write: null, boolean, number, text, array, or object whose members keep the
+/// order in which they were added.
+///     Json answer{{"area", 0.1}, {"spots", spots}}; // members; arrays come from std::vector
+///     answer["unit"] = "m^2";                       // null becomes an object; push_back: an array
+/// throws    std::logic_error if a value is not of the requested kind
 class Json {
  public:
   using Array = std::vector<Json>;
   using Object = std::vector<std::pair<std::string, Json>>;
 
-  /// What is null, and neither a number nor a text. Its copy is written out so that a variant with
-  /// it counts as one that can lose its value: of a variant that holds only plain types, texts and
-  /// vectors, the standard library of GCC 12 takes the opposite for granted, and a copy for which
-  /// memory fails then ends the process by signal 11 instead of throwing std::bad_alloc.
+  /// The null value. It has copy functions of its own to avoid a fault of the standard library of
+  /// GCC 12. That library assumes that a variant of trivial types, strings and vectors always has a
+  /// value. If memory runs out during a copy, the process then ends with signal 11 instead of
+  /// throwing std::bad_alloc. A variant that contains a type with its own copy functions is not
+  /// affected.
   struct Null {
     Null() = default;
     Null(const Null&) noexcept {}
@@ -50,9 +51,9 @@ class Json {
   Json(std::string text) : value_(std::move(text)) {}
   template <class T>
   Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
-  /// An object; of two members with one key the last counts.
+  /// An object. If two members have the same key, the last one counts.
   Json(std::initializer_list<std::pair<std::string_view, Json>> members);
-  /// Empty ones.
+  /// An empty array and an empty object.
   static Json array();
   static Json object();
 
@@ -73,33 +74,33 @@ class Json {
   double number() const;
   const std::string& text() const;
 
-  /// Members of an object, elements of an array; 0 for null, 1 for the others.
+  /// Number of members of an object or elements of an array; 0 for null, 1 for other values.
   std::size_t size() const;
   bool empty() const { return size() == 0; }
   bool contains(std::string_view key) const;
 
-  /// Adds the member where there is none.
+  /// The member with this key. If there is none, a member with the value null is added.
   Json& operator[](std::string_view key);
   const Json& operator[](std::string_view key) const;
   Json& operator[](std::size_t index);
   const Json& operator[](std::size_t index) const;
   void push_back(Json value);
-  /// Adds the members of an object that this one does not have.
+  /// Adds those members of another object whose keys this object does not have.
   void add(const Json& object);
-  /// Removes a member, if there is one.
+  /// Removes the member with this key, if there is one.
   void erase(std::string_view key);
 
   /// Pairs of key and value.
   Object& items() &;
   const Object& items() const&;
-  const Object& items() const&& = delete;  // a loop over a temporary's would outlive it
+  const Object& items() const&& = delete;  // a loop over a temporary's items would outlive it
   /// Elements of an array.
   Array& elements() &;
   const Array& elements() const&;
   const Array& elements() const&& = delete;
 
-  /// JSON text; with indent < 0 in one line. Text that is not UTF-8, such as a file's name, has
-  /// U+FFFD where it is not; a number that is not finite becomes null.
+  /// JSON text; on one line if indent < 0. Bytes that are not UTF-8, as in a file name, become
+  /// U+FFFD; a number that is not finite becomes null.
   std::string dump(int indent = -1) const;
 
   using Value =

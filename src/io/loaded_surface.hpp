@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-/// What the readers of single formats share. Each takes a file apart and returns what it says, no
-/// more.
+/// Types and functions that the readers of surface formats share. A reader returns what the file
+/// states and adds nothing.
 namespace salebra {
 struct ReadOptions;
 }
@@ -18,90 +18,99 @@ namespace salebra::detail {
 
 class InputFile;
 
-/// What the reader of a file did not understand, unless the user settles it.
+/// Something in a file that its reader did not understand. The file is refused unless an option of
+/// the user answers the question.
 struct OpenQuestion {
   std::string text;
-  bool size = false, heights = false;  ///< settled by sizes, by the unit of the heights
+  /// The question is answered by sizes; by the unit of the heights.
+  bool size = false, heights = false;
 };
 
 struct LoadedSurface {
-  Field heights;                 ///< in `unit`
-  std::optional<Index> rows;     ///< of the surface, where `heights` has those of one process
+  Field heights;  ///< in `unit`
+  /// Number of rows of the whole surface, if `heights` only contains those of one process.
+  std::optional<Index> rows;
   std::optional<double> size_x;  ///< m
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
-  std::string unit;                ///< of the heights; empty where the file names none
-  std::string stated_unit = {};    ///< as the file states it, where the reader has converted it
-  bool lateral_unit_open = false;  ///< the sizes are in a unit that the file does not name
-  bool is_profile = false;         ///< one row
-  bool has_channels = false;       ///< the reader chose one by ReadOptions::channel
+  std::string unit;  ///< of the heights; empty if the file names none
+  /// Unit in the file, if the reader has already converted the heights to `unit`.
+  std::string stated_unit = {};
+  bool lateral_unit_open = false;  ///< the file does not state the unit of the sizes
+  bool is_profile = false;         ///< the file holds a line profile: one row
+  bool has_channels = false;       ///< the reader takes account of ReadOptions::channel
   std::vector<OpenQuestion> questions = {};
-  std::vector<std::string> warnings = {};  ///< on what it says and the reader did not use
+  /// About statements in the file that the reader did not use.
+  std::vector<std::string> warnings = {};
 };
 
-/// InvalidInput "<file>: <what>".
+/// Throws InvalidInput "<file>: <what>".
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
-/// One of the surfaces of a file.
+/// One of several surfaces (channels) in a file.
 struct Channel {
-  std::string number;  ///< empty: it is called by its name alone
+  std::string number;  ///< empty: the user can select the channel only by its name
   std::string name;    ///< may be empty
   std::string unit;    ///< of its values; empty: unknown
 };
 
-/// The index of the channel with this number or name. Where `wanted` is empty, it is that of the
-/// first length, else of the first without a unit, and `surface` gets a warning on the others.
-/// Throws InvalidInput where no channel has that name, several have it, or none can be heights.
+/// Index of the channel whose number or name is `wanted`. If `wanted` is empty, it is the first
+/// channel whose unit is a length, or else the first channel without a unit; `surface` then gets a
+/// warning that names the other channels. Throws InvalidInput if no channel has this name, several
+/// have it, or no channel can contain heights.
 std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<Channel>& channels,
                            const std::string& wanted, LoadedSurface& surface);
 
-/// Room for the heights of a file, not initialised. Throws InvalidInput where they do not fit into
-/// the memory that is free.
+/// Allocates the heights of a surface, without initialising them. Throws InvalidInput naming the
+/// file if they do not fit into the free memory.
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny);
 
-/// The whole of a file, by plain_content(). Throws InvalidInput where it cannot be read.
+/// The whole content of a file, after unwrapping by plain_content(). Throws InvalidInput if the
+/// file cannot be read.
 std::string file_content(const InputFile& input);
 
-/// Whether the file begins as HDF5 does.
+/// Whether the file begins with the HDF5 signature.
 bool is_hdf5(const std::filesystem::path& file);
 
-/// Metres in one `unit` of length; nothing for anything else.
+/// Length of one `unit` in metres; nothing if it is not a unit of length.
 std::optional<double> metres_in(const std::string& unit);
-/// The same, where it must be one; throws InvalidInput naming the file.
+/// Length of one `unit` in metres. Throws InvalidInput naming the file if it is not a unit of
+/// length.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
-/// Points at these positions, which increase, as a profile of equal steps. Where they are off by more
-/// than a tenth of a step, the straight lines between them are evaluated on a fine grid from the
-/// first point to the last. size_x is in the unit of x.
+/// A line profile with equal steps, from heights at increasing positions. If a position deviates by
+/// more than a tenth of a step from equal steps, the straight lines between the points are
+/// evaluated on a fine grid from the first to the last point. size_x of the result is in the unit
+/// of the positions.
 LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<double>& positions,
                          const std::vector<double>& heights);
 
-/// Whether the file is of no other format and is not wrapped; an empty file is no text.
+/// Whether the file is text: it has no binary format, is not wrapped (gzip, UTF-16) and not empty.
 bool is_plain_text(const InputFile& input);
 
-/// Such a text, a piece at a time. Memory: 8 to 17 bytes a value.
+/// Reads a text file a piece at a time. Memory: 8 to 17 bytes a value.
 LoadedSurface read_text(const InputFile& input);
 
-/// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar
-/// may lie.
+/// Reads a surface in any format except HDF5, recognised by the first bytes of `content`. `file` is
+/// only used in messages and to find a sidecar.
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content,
                            const std::string& channel = {});
 
-/// A surface as it was read.
+/// A surface in metres, and what is known of the file.
 struct ReadSurface {
   Surface surface = {};        ///< m
-  double metres_per_unit = 1;  ///< of the heights in the file
-  bool names_unit = false;     ///< the file does
+  double metres_per_unit = 1;  ///< of the unit in which the file states the heights
+  bool names_unit = false;     ///< whether the file names the unit of its heights
   bool names_lateral_unit = true;
 };
 
-/// The surface in metres, with what the options say in place of the file. Throws InvalidInput as
-/// read_surface does.
+/// Completes a loaded surface: converts it to metres, and applies the options, which override what
+/// the file states. Throws InvalidInput as read_surface() does.
 ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
                       const ReadOptions& options);
 
-/// The reader of HDF5; those of other formats are in surface_formats.cpp.
-/// ranks: each gets its rows.
+/// Reads a surface from HDF5; the readers of other formats are listed in surface_formats.cpp. Each
+/// process of the communicator gets its rows.
 LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& channel = {},
                         const Communicator& communicator = {});
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reader of NumPy arrays (.npy), with size and unit from the JSON file next to them.
+// Reader of NumPy arrays (.npy); their size and unit come from the JSON file (sidecar) next to
+// them.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,10 +19,10 @@
 namespace salebra::detail {
 namespace {
 
-/// The header is the text of a Python dict: {'descr': '<f8', 'fortran_order': False, 'shape': (2,
-/// 3), }.
+/// What the header of an array says. It is the text of a Python dict: {'descr': '<f8',
+/// 'fortran_order': False, 'shape': (2, 3), }.
 struct NpyHeader {
-  std::string type;  ///< such as "<f8"
+  std::string type;  ///< type of the numbers, such as "<f8"
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
 };
@@ -40,7 +41,7 @@ class NpyHeaderParser {
       expect(':');
       if (key == "descr") {
         if (peek() == '[')
-          refuse(file_, "holds records, not one array of real numbers; save one field");
+          refuse(file_, "holds records instead of an array of real numbers; save one field");
         header.type = quoted();
         has_type = true;
       } else if (key == "fortran_order") {
@@ -121,20 +122,23 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
   constexpr std::uint64_t most = 1 << 20;
   const auto json = nlohmann::json::parse(InputFile(sidecar).content(most), nullptr, false);
   try {
-    // Half of a pair that a fault or a crash left, or an array that was saved anew.
+    // The sidecar may belong to another array: a crash may have replaced only one of the two files,
+    // or the array was saved again later.
     if (json.contains("checksum") &&
         json.at("checksum").get<std::string>() != Checksum(content).digits())
-      refuse(sidecar, "describes another array than that of " + file.filename().string() +
+      refuse(sidecar, "describes a different array than " + file.filename().string() +
                           ": its checksum differs; write both again, or remove the entry checksum "
                           "if the size is right");
-    // These say how it was made; others may say how it is to be read.
+    // Entries that the reader uses, or that only describe the origin. Any other entry might change
+    // how to read the array.
     constexpr std::array known{"size_x",       "size_y",        "periodic", "units",     "checksum",
                                "origin",       "program",       "version",  "libraries", "created",
                                "command_line", "configuration", "seed"};
     for (const auto& [key, value] : json.items())
       if (std::ranges::find(known, key) == known.end() &&
           is_about_numbers(key, value.is_string() ? value.get<std::string>() : value.dump()))
-        refuse(sidecar, "has an entry '" + key + "', which is not used; apply it, and remove it");
+        refuse(sidecar, "has an entry '" + key +
+                            "', which salebra does not apply; apply it and remove the entry");
     if (json.contains("size_x")) surface.size_x = json.at("size_x").get<double>();
     if (json.contains("size_y")) surface.size_y = json.at("size_y").get<double>();
     if (json.contains("periodic")) surface.periodic = json.at("periodic").get<bool>();
@@ -156,7 +160,7 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
   };
   const std::size_t version = byte(magic);
   if (version < 1 || version > 3)
-    refuse(file, "is of NPY version " + std::to_string(version) + "; versions 1 to 3 are known");
+    refuse(file, "has NPY version " + std::to_string(version) + "; versions 1 to 3 are known");
   const std::size_t length_bytes = version == 1 ? 2 : 4, start = magic + 2 + length_bytes;
   std::size_t header_length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i) header_length |= byte(magic + 2 + i) << (8 * i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of numbers from text files with a fixed number of columns, and titles of columns.
+// Reader of tables of numbers whose possible columns are known, and of the titles of columns.
 #include "number_table.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ std::vector<std::string_view> titles_of(std::string_view line) {
     const char symbol = i < line.size() ? line[i] : '\n';
     if (symbol == '[' || symbol == '(') ++depth;
     if (symbol == ']' || symbol == ')') --depth;
-    // The first character from here on that is no blank.
+    // `next` becomes the index of the next character that is no blank.
     for (next = std::max(next, i); next < line.size() && line[next] == ' ';) ++next;
     const bool before_unit = next < line.size() && (line[next] == '[' || line[next] == '(');
     const bool ends = symbol == '\n' || (depth == 0 && (marked   ? symbol == ',' || symbol == ';'
@@ -67,21 +67,22 @@ double factor_of(const std::filesystem::path& file, const ColumnTitle& title, Di
   } catch (const InvalidInput&) {
   }
   try {
-    // A wave number q is 2π over the wavelength, and written in 1/m as well.
+    // A wavenumber q = 2π/λ may have the unit 1/m, too, instead of rad/m.
     if (dimension == Dimension::wavenumber)
       return parse_quantity(number, Dimension::inverse_length, title.name);
   } catch (const InvalidInput&) {
   }
   refuse(file, "gives the column " + std::string(title.name) + " in '" + std::string(title.unit) +
-                   "', which is no unit of it; write " + std::string(si_unit(dimension)));
+                   "', which is not a unit of this quantity; write " +
+                   std::string(si_unit(dimension)));
 }
 
 void UnitsOfTitles::add(const ColumnTitle& title, Dimension dimension) {
   if (dimension == Dimension::dimensionless) return;
   (title.unit.empty() ? without_ : with_) = title.name;
   if (!with_.empty() && !without_.empty())
-    refuse(file_, "names a unit of its column " + with_ + " and none of " + without_ +
-                      "; name both, or none where all are in SI units");
+    refuse(file_, "names a unit of its column " + with_ + " but none for " + without_ +
+                      "; name both, or none if all are in SI units");
 }
 
 }  // namespace detail
@@ -90,9 +91,10 @@ namespace {
 
 using detail::refuse;
 
-/// How the columns of a file become those that are asked for.
+/// For each column of the file, the requested column to which its title belongs.
 struct Titles {
-  std::vector<std::size_t> positions;  ///< of the columns of the file
+  std::vector<std::size_t>
+      positions;  ///< index of the requested column, for each column of the file
   std::vector<double> factors;
   bool has_units = false;
 };
@@ -119,7 +121,7 @@ Titles read_titles(const std::filesystem::path& file, std::string_view line,
     std::vector<std::string_view> names;
     for (const TableColumn& column : columns) names.push_back(column.name);
     if (!position)
-      refuse(file, fmt::format("has a column '{}', which is none of {}; correct its title", text,
+      refuse(file, fmt::format("has a column '{}', which is not one of {}; correct its title", text,
                                fmt::join(names, ", ")));
     if (std::ranges::find(titles.positions, *position) != titles.positions.end())
       refuse(file, fmt::format("has two columns {}", columns[*position].name));
@@ -131,20 +133,20 @@ Titles read_titles(const std::filesystem::path& file, std::string_view line,
   return titles;
 }
 
-/// Whether a comment is the line of titles: its first word is the title of a column.
+/// Whether a comment is the line of titles: its first word is the title of a requested column.
 bool names_columns(std::string_view comment, const std::vector<TableColumn>& columns) {
   const auto titles = detail::titles_of(comment);
   return titles.size() > 1 && comment.find(':') == std::string_view::npos &&
          place_of(titles.front().substr(0, titles.front().find_first_of(" [(/")), columns);
 }
 
-/// A comment that may state units, which would not be used.
+/// Refuses a comment that seems to state units, since they would be ignored.
 void require_no_units(const std::filesystem::path& file, std::string_view comment) {
   if (comment.find_first_of("[(") != std::string_view::npos ||
       comment.find("nit") != std::string_view::npos ||
       comment.find("inheit") != std::string_view::npos)
     refuse(file, "has a comment '" + std::string(comment.substr(0, 60)) +
-                     "', whose unit would not be used; write titles such as 'time [ms]', or remove "
+                     "', whose unit would be ignored; write titles such as 'time [ms]', or remove "
                      "the comment");
 }
 
@@ -181,8 +183,8 @@ NumberTable read_number_table(const std::filesystem::path& file,
     }
     if (values.size() != table.size() || (titles && titles->positions.size() != table.size()))
       throw InvalidInput(position, "holds " + std::to_string(values.size()) +
-                                    " values; give the same " + std::to_string(table.size()) +
-                                    " in each line" + (titles ? ", with a title each" : ""));
+                                       " values; give the same " + std::to_string(table.size()) +
+                                       " in each line" + (titles ? ", with a title each" : ""));
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t column = titles ? titles->positions[i] : i;
       if (column >= table.size())

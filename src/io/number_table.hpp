@@ -10,26 +10,27 @@
 
 namespace salebra {
 
-/// What a column of a table holds.
+/// A column that a table may have.
 struct TableColumn {
   std::string_view name;
   Dimension dimension;
-  std::vector<std::string_view> also = {};  ///< other titles of it, in lower case
+  std::vector<std::string_view> also = {};  ///< other allowed titles of the column, in lower case
 };
 
 struct NumberTable {
-  std::vector<std::vector<double>> columns;  ///< in the order that was asked for, in SI units
-  bool has_units = false;                    ///< the titles name them
+  /// In the order in which the columns were requested, in SI units.
+  std::vector<std::vector<double>> columns;
+  bool has_units = false;  ///< whether the titles state units
 };
 
-/// Reads the columns of a text table of numbers: profiles (r, f), trajectories (t, δ, x). Values
-/// are separated by blanks, ',' or ';'; empty lines are passed over. One line of titles may come
-/// first, behind a '#' or not: it names each column, in any order, with its unit or all without,
-/// which is SI.
-/// columns   what there must be in each line
-/// least     so many of them are enough; 0: all
-/// throws    InvalidInput naming file and line; for a title that is none of the columns, a unit
-///           that is none of its quantity, and a comment with a unit that is not used
+/// Reads the columns of a text table of numbers, such as profiles (r, f) and trajectories (t, δ,
+/// x). Values are separated by blanks, ',' or ';'; empty lines are skipped. The first line may
+/// contain titles, with or without '#' before them. Titles name each column, in any order, and
+/// state a unit for every column or for none; without units all values are in SI units.
+/// columns   the possible columns, in the order of the result
+/// least     the first `least` columns are required, the others optional; 0: all are required
+/// throws    InvalidInput naming file and line; also for a title of no such column, a unit of
+///           another quantity, and a comment that seems to state units, which would be ignored
 NumberTable read_number_table(const std::filesystem::path& file,
                               const std::vector<TableColumn>& columns, std::size_t least = 0);
 
@@ -41,23 +42,24 @@ inline std::vector<TableColumn> spectrum_columns(Dimension density) {
 
 namespace detail {
 
-/// A title of a column: "time [ms]", "time (ms)", "time/ms" or "time".
+/// The title of a column, from "time [ms]", "time (ms)", "time/ms" or "time".
 struct ColumnTitle {
   std::string_view name;
-  std::string_view unit;  ///< empty: none
+  std::string_view unit;  ///< empty: the title states none
 };
-/// Throws InvalidInput for a bracket that does not close.
+/// Splits a title into name and unit. Throws InvalidInput for a bracket that does not close.
 ColumnTitle column_title(const std::filesystem::path& file, std::string_view title);
 
-/// Splits a line of titles at commas or semicolons, or else at tabs, or else at blanks that are not
-/// before or within brackets. Cost: one pass.
+/// Splits a line of titles at commas or semicolons; if it has none, at tabs; if it has no tabs
+/// either, at blanks that are not before or within brackets. Cost: one pass.
 std::vector<std::string_view> titles_of(std::string_view line);
 
-/// SI value of the unit of a column; 1 where it has none. Throws InvalidInput where the unit is
-/// none of the dimension.
+/// The unit of a column in SI units; 1 if the title states none. Throws InvalidInput if the unit is
+/// not of this dimension.
 double factor_of(const std::filesystem::path& file, const ColumnTitle& title, Dimension dimension);
 
-/// Refuses titles of which some with a dimension have a unit and some have none.
+/// Throws InvalidInput for titles of which some state a unit and others, of columns with a
+/// dimension, do not.
 class UnitsOfTitles {
  public:
   explicit UnitsOfTitles(std::filesystem::path file) : file_(std::move(file)) {}
@@ -66,7 +68,7 @@ class UnitsOfTitles {
 
  private:
   std::filesystem::path file_;
-  std::string with_, without_;  ///< names of columns
+  std::string with_, without_;  ///< titles of columns with and without a unit
 };
 
 }  // namespace detail

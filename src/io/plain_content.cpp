@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Content of files without gzip, and UTF-16 as UTF-8.
+// Unpacks gzip and converts UTF-16 to UTF-8.
 #include "plain_content.hpp"
 
 #include <zlib.h>
@@ -15,11 +15,11 @@
 namespace salebra::detail {
 namespace {
 
-/// First bytes of what is wrapped: gzip, and UTF-16 of either order.
+/// The first bytes of gzip, and of UTF-16 in either byte order.
 constexpr std::string_view gzip_mark = "\x1f\x8b", big_endian_mark = "\xfe\xff",
                            little_endian_mark = "\xff\xfe";
 
-/// A stream of inflate that is closed.
+/// An inflate stream that the destructor closes.
 class Inflater {
  public:
   Inflater() {
@@ -36,7 +36,8 @@ class Inflater {
   z_stream stream_ = {};
 };
 
-/// Bytes of a height in the binary formats, by their first bytes; 0 for text.
+/// Number of bytes per height in a binary format, recognised by the first bytes of the content; 0
+/// for text.
 std::size_t bytes_of_height(std::string_view content) {
   if (content.starts_with("Gwyddion Simple Field")) return 4;
   if (content.starts_with("GWYP")) return 8;
@@ -48,7 +49,8 @@ std::size_t bytes_of_height(std::string_view content) {
   return digit == content.npos ? 1 : static_cast<std::size_t>(content[digit] - '0');
 }
 
-/// How many doubles become of the content at most. begin: of what was not counted yet.
+/// An upper bound of the number of heights that a reader will make of the content from index
+/// `begin` on.
 std::uint64_t doubles_of(std::string_view content, std::size_t begin) {
   if (const std::size_t bytes = bytes_of_height(content)) return (content.size() - begin) / bytes;
   const auto separates = [](char symbol) {
@@ -62,8 +64,9 @@ std::uint64_t doubles_of(std::string_view content, std::size_t begin) {
 
 std::string unzipped(const std::filesystem::path& file, std::string_view content) {
   const std::uint64_t most = 64 * std::uint64_t(content.size()) + (std::uint64_t{256} << 20);
-  // Each height becomes eight bytes and more. A scan has at least one bit of news in each height,
-  // hence at most eight heights in each packed byte; the first 8 million may have less.
+  // Limits the heights that a small packed file can make, each of which takes eight bytes of memory
+  // or more. A real scan has at least one bit of information per height, so a packed byte contains
+  // at most eight heights; 8 million more are allowed.
   const std::uint64_t max_doubles = 8 * std::uint64_t(content.size()) + (std::uint64_t{8} << 20);
   std::uint64_t doubles = 0;
   constexpr std::size_t piece = std::size_t{1} << 20;
@@ -72,11 +75,11 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
   std::size_t filled = 0;
   const auto refuse_size = [&] {
     refuse(file, "unpacks to more than " + memory_text(static_cast<double>(filled)) +
-                     ", more than it can hold here; unpack it and crop what is in it");
+                     ", more than is allowed here; unpack the file and crop its content");
   };
   for (int status = Z_OK; status != Z_STREAM_END || !content.empty();) {
     if (status == Z_STREAM_END) {
-      // Behind a member stands another one, or padding.
+      // After a member of the gzip file another member or padding may follow.
       if (!content.starts_with(gzip_mark)) break;
       inflateReset(inflater.get());
     }
@@ -89,7 +92,7 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
     constexpr std::size_t longest = std::numeric_limits<uInt>::max();
     const auto given = static_cast<uInt>(std::min(content.size(), longest));
     const auto available = static_cast<uInt>(std::min(out.size() - filled, longest));
-    // inflate does not write to its input.
+    // The cast is safe, since inflate() does not write to its input.
     inflater->next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(content.data()));
     inflater->avail_in = given;
     inflater->next_out = reinterpret_cast<Bytef*>(out.data() + filled);
@@ -143,7 +146,7 @@ std::string utf8_of_utf16(const std::filesystem::path& file, std::string_view co
     if (symbol >= 0xd800 && symbol < 0xe000) {
       const bool paired = symbol < 0xdc00 && i + 2 < content.size() && unit(i + 2) >= 0xdc00 &&
                           unit(i + 2) < 0xe000;
-      if (!paired) refuse(file, "is no UTF-16 text, though it begins as such; save it as UTF-8");
+      if (!paired) refuse(file, "begins like UTF-16 text but is not; save it as UTF-8");
       symbol = 0x10000 + ((symbol - 0xd800) << 10) + (unit(i + 2) - 0xdc00);
       i += 2;
     }

@@ -8,14 +8,15 @@
 
 namespace salebra::detail {
 
-/// Whether plain_content() has anything to do, by the first bytes.
+/// Whether plain_content() would unwrap the content, as its first bytes show.
 bool is_wrapped(std::string_view content);
 
-/// The content without what is wrapped around it, whatever its format: gzip, whose members follow
-/// each other, and UTF-16 text with a byte order mark, which becomes UTF-8. Nothing for content that
-/// is not wrapped.
-/// Throws InvalidInput where the gzip is damaged or cut, or unpacks to more than 64 times the file
-/// and 256 MB, or to more than 8 heights for each byte of the file and 8 million, and for UTF-16 that is cut or not paired. Cost: one pass; memory: what comes out.
+/// Unwraps the content of a file: unpacks gzip with one or several members, or converts UTF-16 text
+/// with a byte order mark to UTF-8. Returns nothing for content that is not wrapped. Throws
+/// InvalidInput for gzip that is damaged or truncated; for gzip that unpacks to more than 64 times
+/// the file and 256 MB, or to more than 8 heights for each byte of the file and 8 million; and for
+/// UTF-16 that is truncated or has an unpaired surrogate. Cost: one pass; memory: that of the
+/// result.
 std::optional<std::string> plain_content(const std::filesystem::path& file,
                                          std::string_view content);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Drawing of a figure by gnuplot in a child process, to a file that appears whole.
+// Draws a figure by gnuplot in a child process; the file appears complete or not at all.
 #include "plot.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ detail::PictureFormat format_of(const std::filesystem::path& file) {
                                       {".pdf", detail::PictureFormat::pdf}})
     if (suffix == known) return format;
   require(false, "plot", "'" + file.string() + "'",
-          "has no picture's suffix; use .png, .svg or .pdf");
+          "does not end in the suffix of a picture; use .png, .svg or .pdf");
   return {};
 }
 
@@ -31,11 +31,11 @@ detail::PictureFormat format_of(const std::filesystem::path& file) {
 
 void require_gnuplot(const std::filesystem::path& file) {
   if (detail::found_on_path("gnuplot").empty())
-    fail(file, "gnuplot is not installed (Debian package gnuplot-nox), which draws the pictures");
+    fail(file, "gnuplot is not installed; pictures need it (Debian package gnuplot-nox)");
 }
 
-// The line of gnuplot's complaint that says what is wrong, after the script's line and a caret that
-// point at it.
+// The line of gnuplot's error messages that says what is wrong. It comes after the line of the
+// script and a caret below that line.
 std::string complaint(const std::string& text) {
   std::istringstream lines(text);
   std::string last;
@@ -45,18 +45,19 @@ std::string complaint(const std::string& text) {
   return last.substr(0, 200);
 }
 
-/// What gnuplot draws; `file` is only named in messages.
+/// Returns the picture that gnuplot draws; `file` is only named in messages.
 std::string run_gnuplot(const std::filesystem::path& file, std::string_view script) {
   const detail::ChildRun run = detail::run_child({"gnuplot", "--default-settings", "-"}, script);
   if (run.start_error != 0)
     fail(file, std::string("gnuplot cannot be started (") + std::strerror(run.start_error) + ")");
-  if (run.late) fail(file, "gnuplot took longer than ten minutes and was ended");
-  if (run.signal != 0) fail(file, "gnuplot was ended by signal " + std::to_string(run.signal));
+  if (run.late) fail(file, "gnuplot took longer than ten minutes and was stopped");
+  if (run.signal != 0) fail(file, "gnuplot was stopped by signal " + std::to_string(run.signal));
   if (run.status != 0) fail(file, "gnuplot failed (" + complaint(run.errors) + ")");
   return run.output;
 }
 
-// gnuplot does not always report a failed write: then the end is missing.
+// Throws IoError if the end of the picture is missing, since gnuplot does not report every failed
+// write.
 void require_whole(const std::filesystem::path& file, std::string_view picture,
                    detail::PictureFormat format) {
   constexpr std::size_t tail = 32;

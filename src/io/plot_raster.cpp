@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Resampling of an image to the equal cells that a picture draws.
+// Resampling of an image to cells of equal size, as a picture draws them.
 #include "plot_raster.hpp"
 
 #include <fmt/format.h>
@@ -14,8 +14,9 @@ namespace {
 
 constexpr Index max_cells = 1200;
 
-// How the cells of one axis are made of the image's: cell k is the mean of `first`..`last`, or lies
-// at `fraction` between them.
+// How the drawn cells along one axis follow from the cells of the image. Drawn cell k is the mean
+// of the image cells first … last, or it is interpolated between these two at `fraction` of their
+// distance.
 struct Sampling {
   struct Cell {
     Index first = 0, last = 0;
@@ -61,7 +62,7 @@ Sampling sample_axis(const std::vector<double>& coordinate, const DisplayAxis& a
   return out;
 }
 
-// Rows are the axis to be resampled.
+// Resamples an image along its first axis.
 Field resample(const Field& values, const Sampling& sampling) {
   const auto cells = static_cast<Index>(sampling.cells.size());
   Field out(cells, values.cols());
@@ -69,7 +70,7 @@ Field resample(const Field& values, const Sampling& sampling) {
     const auto& [first, last, fraction] = sampling.cells[static_cast<std::size_t>(k)];
     for (Index j = 0; j < values.cols(); ++j) {
       if (!sampling.averages) {
-        // Not (1 − f)a + fb alone: a NaN beside a node itself must not erase the node.
+        // At a cell of the image, (1 − f)a + f b would be NaN if the neighbouring cell is NaN.
         out(k, j) = fraction == 0 ? values(first, j)
                     : fraction == 1
                         ? values(last, j)
@@ -139,7 +140,7 @@ Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis
   const double reach = std::max(std::abs(least), std::abs(most));
   if (!image.scale.low) out.scale.low = symmetric ? -reach : least;
   if (!image.scale.high) out.scale.high = symmetric ? reach : most;
-  // A field without contrast still needs a scale.
+  // If all values are equal, the colour scale still needs two different limits.
   if (!(*out.scale.high > *out.scale.low)) {
     const double padding = reach > 0 ? 0.1 * reach : 1;
     *out.scale.low -= padding;

@@ -8,19 +8,21 @@
 
 namespace salebra::detail {
 
-/// An image as equal cells on the axes as drawn.
+/// An image resampled to cells of equal size, in the numbers that the axes of the picture show.
 struct Raster {
-  double x0 = 0, dx = 0, y0 = 0, dy = 0;  ///< middle of the first cell, and the spacing
-  Field values;                           ///< as drawn: scaled, logarithm taken
-  DisplayAxis scale;                      ///< of the colours, with both limits
+  /// Centre of the first cell, and distance of the cells, along x and y.
+  double x0 = 0, dx = 0, y0 = 0, dy = 0;
+  /// In the numbers of the colour scale: with an SI prefix, and as logarithms if it is logarithmic.
+  Field values;
+  DisplayAxis scale;  ///< colour scale, with both limits set
 };
 
-/// Throws InvalidInput where coordinates and values do not belong together.
+/// Throws InvalidInput if the numbers of coordinates do not match the size of `values`.
 void check_raster(const PlotImage& image);
 
 Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis& y);
 
-/// The range of the values that are numbers; (∞, −∞) if none is.
+/// Minimum and maximum of the finite values; (∞, −∞) if no value is finite.
 std::pair<double, double> finite_range(const Field& values);
 
 }  // namespace salebra::detail

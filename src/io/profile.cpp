@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Line profile of equal steps from positions and heights.
+// Line profile with equal steps, from positions and heights.
 #include <algorithm>
 #include <cmath>
 
@@ -22,10 +22,12 @@ LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<do
   profile.heights = Eigen::Map<const Eigen::ArrayXd>(heights.data(), static_cast<Index>(count));
   double max_offset = 0;
   for (std::size_t i = 0; i < count; ++i)
-    max_offset = std::max(max_offset, std::abs(positions[i] - first - static_cast<double>(i) * step));
+    max_offset =
+        std::max(max_offset, std::abs(positions[i] - first - static_cast<double>(i) * step));
   if (!(max_offset > 0.1 * step)) return profile;
-  // The profile is what straight lines between its points make of it, on a grid of equal steps that
-  // is fine even to the shortest of them: sums over it are integrals.
+  // Evaluates the straight lines between the points on a grid of equal steps. The grid is fine
+  // compared with the shortest of these lines, so sums over it are good integrals along the
+  // profile.
   const double length = positions.back() - first;
   double shortest = length;
   for (std::size_t i = 1; i < count; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time stamp and library versions for the provenance of a result.
+// Time stamp and versions of libraries for the provenance of a result.
 #include <fftw3.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>

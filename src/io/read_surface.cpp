@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading of a surface: format by content, then size, unit and period from options or file.
+// Reader of surfaces: finds the format by the content of the file, and completes size, unit and
+// period by the options.
 #include <fmt/format.h>
 #include <stdlib.h>
 
@@ -33,7 +34,7 @@ namespace {
 
 SurfaceImporter surface_importer = nullptr;
 
-/// A folder that is gone at the end.
+/// A temporary folder for the result of an importer; the destructor removes it.
 class ScratchFolder {
  public:
   ScratchFolder() : path_(std::filesystem::temp_directory_path() / "salebra-import-XXXXXX") {
@@ -57,13 +58,14 @@ class ScratchFolder {
 detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions& options) {
   try {
     const detail::InputFile input(file);
-    // HDF5 is read through its own library, which need not hold the whole file.
+    // HDF5 files are not read into memory first: the HDF5 library reads the file in parts.
     if (input.is_hdf5()) return detail::read_hdf5(file, options.channel);
     if (detail::is_plain_text(input)) return detail::read_text(input);
     return detail::read_content(file, detail::file_content(input), options.channel);
   } catch (const UnknownFormat& refusal) {
     if (surface_importer == nullptr || options.known_formats) throw;
-    // An importer reads HDF5 by a library that follows what the file says to other files.
+    // An HDF5 file is not passed to the importer, whose HDF5 library would follow links to other
+    // files.
     if (detail::InputFile(file).may_be_hdf5()) throw;
     const ScratchFolder scratch;
     std::vector<std::string> warnings =
@@ -78,17 +80,18 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
 double size_along(const std::filesystem::path& file, const char* field,
                   const std::optional<double>& given, const std::optional<double>& stated,
                   std::vector<std::string>* warnings) {
-  // Spectra divide by products of four steps, which must neither vanish nor overflow.
+  // Spectra divide by products of four steps. Sizes outside these limits would make the products
+  // underflow or overflow.
   const auto usable = [](double size) { return size >= 1e-60 && size <= 1e60; };
   if (given) {
     require_positive(*given, field);
     require(usable(*given), field, *given, "must be from 1e-60 to 1e60, m");
-    // Sizes are often given rounded.
+    // A difference below this is no contradiction, since users often round sizes.
     constexpr double rounding = 1e-3;
     if (warnings && stated && usable(*stated) && !(std::abs(*given / *stated - 1) < rounding))
-      warnings->push_back(std::string(field) + ": " + format_quantity(*given, Dimension::length) +
-                         " was given, and " + file.string() + " states " +
-                         format_quantity(*stated, Dimension::length));
+      warnings->push_back("`" + std::string(field) +
+                          "`: " + format_quantity(*given, Dimension::length) + " was given, but " +
+                          file.string() + " states " + format_quantity(*stated, Dimension::length));
     return *given;
   }
   if (!stated)
@@ -129,7 +132,7 @@ bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5
 
 namespace {
 
-/// By the first bytes of a content.
+/// The entry of the table of formats for a content, found by its first bytes.
 const SurfaceFormatEntry& entry_of(std::string_view content) {
   const auto begins = [&](std::string_view head) { return content.starts_with(head); };
   for (const SurfaceFormatEntry& format : surface_format_table())
@@ -164,7 +167,7 @@ std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<
     if (channel.number.empty()) return channel.name;
     return channel.number + (channel.name.empty() ? "" : " (" + channel.name + ")");
   };
-  // Those of one kind but for one of them.
+  // The names of all channels in a list, except the channel `without`.
   const auto list = [&](const auto& kind, const Channel* without) {
     std::string names;
     for (const Channel& channel : channels)
@@ -191,13 +194,14 @@ std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<
     const auto found = std::ranges::find_if(channels, kind);
     if (found == channels.end()) return {};
     if (const std::string others = list(kind, &*found); !others.empty())
-      surface.warnings.push_back(fmt::format(
-          "channel {} was taken; the others are {}; see `channel`", text(*found), others));
+      surface.warnings.push_back(
+          fmt::format("channel {} was read; the others are {}; choose one with `channel`",
+                      text(*found), others));
     return found - channels.begin();
   };
   if (const auto found = first_of(is_length)) return *found;
   if (const auto found = first_of(is_bare)) return *found;
-  refuse(file, "holds no channel of heights: the unit of its first one is '" +
+  refuse(file, "does not contain a channel of heights: the unit of the first one is '" +
                    channels.front().unit + "'");
 }
 
@@ -212,25 +216,27 @@ std::optional<double> metres_in(const std::string& unit) {
 
 double metres_per(const std::filesystem::path& file, const std::string& unit) {
   if (const auto metres = metres_in(unit)) return *metres;
-  refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
+  refuse(file,
+         "has heights in '" + unit + "', which is not a unit of length; convert them to metres");
 }
 
 namespace {
 
-/// What the user gave of the size along x or y.
+/// The size along x (axis 0) or y (axis 1) that the user gave, directly or by the distance of
+/// points.
 std::optional<double> given_size(const ReadOptions& options, int axis, Index points) {
   const std::optional<double>& size = axis == 0 ? options.size_x : options.size_y;
   if (!options.pixel_size) return size;
   require(!size, axis == 0 ? "size_x" : "size_y", size.value_or(0),
-          "was given beside `pixel_size`; give one of them");
+          "was given together with `pixel_size`; give one of them");
   const auto [dx, dy] = *options.pixel_size;
   const double step = axis == 0 ? dx : dy;
   require_positive(step, "pixel_size");
   return step * static_cast<double>(points);
 }
 
-/// Sizes of the user that suit the grid better the other way round: programs disagree on which axis
-/// of an array comes first.
+/// Returns a warning if the cells would be much closer to squares with the two sizes exchanged:
+/// programs disagree on which index of an array is x.
 std::optional<std::string> warning_of_axes(const Grid2D& grid) {
   const auto ratio = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
   const double other_dx = grid.lx / static_cast<double>(grid.ny),
@@ -241,7 +247,7 @@ std::optional<std::string> warning_of_axes(const Grid2D& grid) {
     return format_quantity(dx, Dimension::length, 3) + " x " +
            format_quantity(dy, Dimension::length, 3);
   };
-  return fmt::format("{} x {} points along x and y, cells of {}; `transpose` makes them {}",
+  return fmt::format("{} x {} points along x and y, cells of {}; with `transpose` they are {}",
                      grid.nx, grid.ny, cells(grid.dx(), grid.dy()), cells(other_dx, other_dy));
 }
 
@@ -250,27 +256,28 @@ void scale_sizes(const std::filesystem::path& file, const ReadOptions& options,
   if (options.lateral_unit.empty()) return;
   const std::optional<double> metres = metres_in(options.lateral_unit);
   require(metres.has_value(), "lateral_unit", options.lateral_unit,
-          "is no unit of length; give one such as um");
+          "is not a unit of length; give one such as um");
   if (loaded.lateral_unit_open) {
     for (auto* size : {&loaded.size_x, &loaded.size_y})
       if (*size) **size *= *metres;
   } else if (options.warnings) {
     options.warnings->push_back(file.string() + ": `lateral_unit` " + options.lateral_unit +
-                               " was not used: " +
-                               (loaded.size_x ? "the size in the file has a unit or is in metres"
-                                              : "the file states no size"));
+                                " was not used: " +
+                                (loaded.size_x ? "the size in the file has a unit or is in metres"
+                                               : "the file states no size"));
   }
 }
 
-/// A line profile as a surface of one row, as wide as its step; nothing else than it is refused.
+/// Completes the grid of a line profile: one row of points, as wide as a step. Throws InvalidInput
+/// unless the options allow profiles.
 void complete_profile(const std::filesystem::path& file, const ReadOptions& options,
                       const LoadedSurface& loaded, Grid2D& grid) {
   if (!options.profiles)
-    refuse(file, fmt::format("is a line profile of {} points, and a contact needs an area; "
-                             "statistics fits the isotropic surface to generate in its place",
+    refuse(file, fmt::format("is a line profile of {} points, but a contact needs an area; "
+                             "statistics reports an isotropic surface to generate instead",
                              loaded.heights.rows()));
   if (options.transpose || options.crop)
-    refuse(file, "is a line profile, which has nothing to transpose or to crop");
+    refuse(file, "is a line profile, which cannot be transposed or cropped");
   if (!options.size_x && !options.pixel_size && !loaded.size_x)
     refuse(file, fmt::format("is a line profile of {} points that does not state its length; give "
                              "`size_x` or `pixel_size`",
@@ -284,7 +291,7 @@ void complete_profile(const std::filesystem::path& file, const ReadOptions& opti
 
 namespace {
 
-/// Refuses what the options do not settle.
+/// Throws InvalidInput if the file leaves questions open that the options do not answer.
 void answer_questions(const std::filesystem::path& file, const ReadOptions& options,
                       LoadedSurface& loaded) {
   const bool size = options.pixel_size ||
@@ -300,7 +307,7 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
   const auto given = metres_in(options.height_unit), stated = metres_in(unit);
   require(given && stated && std::abs(*given / *stated - 1) < 1e-9, "height_unit",
           options.height_unit,
-          "was given, and " + file.string() + " states the unit of its heights, '" + unit +
+          "was given, but " + file.string() + " states the unit of its heights, '" + unit +
               "'; leave it out");
 }
 
@@ -308,9 +315,9 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
 
 ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
                       const ReadOptions& options) {
-  require(
-      options.channel.empty() || loaded.has_channels, "channel", options.channel,
-      "was given, and " + file.string() + " is of a format that holds one surface; leave it out");
+  require(options.channel.empty() || loaded.has_channels, "channel", options.channel,
+          "was given, but " + file.string() +
+              " has a format that holds only one surface; leave it out");
   answer_questions(file, options, loaded);
   ReadSurface read{
       .names_unit = !loaded.unit.empty(),
@@ -340,7 +347,8 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
     read.metres_per_unit = metres_per(file, unit);
     surface.heights *= read.metres_per_unit;
   }
-  // Zero times what is neither infinite nor undefined is 0: a quick look that spares the slow one.
+  // Quick test before the slow search: the sum of 0 · height is 0 unless a height is infinite or
+  // undefined.
   const Field& heights = surface.heights;
   const double zero = parallel::sum_blocks(heights.rows(), [&](Index begin, Index end) {
     return (0. * heights.middleRows(begin, end - begin)).sum();
@@ -360,7 +368,7 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
 
 namespace {
 
-/// The rows of each process of a surface that the root holds.
+/// Distributes the rows of a surface from the first process to all processes.
 Surface spread(const Surface& surface, const Communicator& communicator) {
   std::string origin = surface.origin;
   struct {
@@ -376,7 +384,7 @@ Surface spread(const Surface& surface, const Communicator& communicator) {
   return rows;
 }
 
-/// Those of the root in all processes.
+/// Replaces `lines` in all processes by those of the first process.
 void share(std::vector<std::string>& lines, const Communicator& communicator) {
   std::string text;
   for (const std::string& line : lines) text += line + '\n';
@@ -385,9 +393,10 @@ void share(std::vector<std::string>& lines, const Communicator& communicator) {
   for (std::string line; std::getline(of_root, line);) lines.push_back(line);
 }
 
-/// Warnings of a surface in one process or of one that is spread: its heights, and its size.
+/// Adds warnings about suspicious heights and sizes of a surface. The surface may be distributed
+/// over processes.
 void warn_of_heights(const std::filesystem::path& file, const detail::ReadSurface& read,
-           const ReadOptions& options) {
+                     const ReadOptions& options) {
   if (options.warnings == nullptr) return;
   const auto warning = [&](const std::string& text) {
     options.warnings->push_back(file.string() + ": " + text);
@@ -396,9 +405,9 @@ void warn_of_heights(const std::filesystem::path& file, const detail::ReadSurfac
   const double longest = std::max(grid.lx, grid.ly);
   if (longest > 1)
     warning(fmt::format("is {} long{}", format_quantity(longest, Dimension::length),
-                       read.names_lateral_unit
-                           ? ", more than instruments measure; check the unit of its size"
-                           : ", its coordinates being in metres; see `lateral_unit`"));
+                        read.names_lateral_unit
+                            ? ", more than instruments measure; check the unit of its size"
+                            : ", its coordinates being in metres; see `lateral_unit`"));
   if (const auto slope = warning_of_heights(read.surface, read.metres_per_unit))
     warning(*slope + (read.names_unit ? "" : "; see `height_unit`"));
 }
@@ -407,8 +416,9 @@ std::string points_text(Index points) {
   return points == 1 ? "1 point" : std::to_string(points) + " points";
 }
 
-/// Those that a flat body meets before the rest: they stand farther above their neighbours than
-/// three standard deviations of the heights, by the span of 98 % of them.
+/// Those spikes that a flat body would touch before the rest of the surface: they exceed their
+/// neighbours by more than three standard deviations of the heights, estimated from the range that
+/// contains 98 % of the heights.
 std::vector<Spike> first_contacts(const Surface& surface, std::vector<Spike> spikes) {
   if (spikes.empty()) return spikes;
   std::vector<double> heights;
@@ -426,7 +436,8 @@ std::vector<Spike> first_contacts(const Surface& surface, std::vector<Spike> spi
   return spikes;
 }
 
-/// Says of spikes what they do, or that they are gone.
+/// A warning about spikes. removed: whether they were removed; otherwise the warning says what they
+/// would do.
 std::string spikes_text(const std::vector<Spike>& spikes, bool removed) {
   Index above = 0;
   double highest = 0;
@@ -441,32 +452,34 @@ std::string spikes_text(const std::vector<Spike>& spikes, bool removed) {
                        count == 1 ? "its" : "their", height, count == 1 ? "is" : "are");
   if (above == 0) return "";
   return fmt::format(
-      "{} alone, up to {} above {} neighbours, and {} the first contacts; `despike` leaves {} out",
-      points_text(above) + (above == 1 ? " stands" : " stand"), height,
-      above == 1 ? "its" : "their", above == 1 ? "carries" : "carry", above == 1 ? "it" : "them");
+      "{} isolated, up to {} above {} neighbours, and would touch first; `despike` removes {}",
+      points_text(above) + (above == 1 ? " is" : " are"), height, above == 1 ? "its" : "their",
+      above == 1 ? "it" : "them");
 }
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-/// Corner of a part in the whole, m.
+/// Position of the lower left corner of a cropped part in the whole surface, m.
 struct Corner {
   double x = 0, y = 0;
 };
 
-/// Throws InvalidInput with what the user can do about the undefined points.
+/// Throws InvalidInput that says where the undefined points are and how the user can treat them.
+/// corner: that of the surface in the file, if it was cropped.
 [[noreturn]] void refuse_holes(const std::filesystem::path& file, const Surface& surface,
                                const Corner& corner, const Holes& holes) {
-  std::string advice = "`fill` fills them by the smoothest surface";
+  std::string advice = "`fill` fills in the smoothest surface";
   const Grid2D& grid = surface.grid;
   if (const auto part = max_defined_part(surface)) {
-    // Seven digits find a cell among 65536 again.
+    // Seven digits distinguish the cells of a side of 65536 cells.
     const auto text = [](double length) { return fmt::format("{:.7g}um", 1e6 * length); };
     const double share = (part->x1 - part->x0) * (part->y1 - part->y0) / grid.area();
     if (share >= 0.01)
-      advice =
-          fmt::format("`crop` {},{},{},{} takes the largest part without any, {} of the area; {}",
-                      text(corner.x + part->x0), text(corner.y + part->y0),
-                      text(corner.x + part->x1), text(corner.y + part->y1), percent(share), advice);
+      advice = fmt::format(
+          "`crop` {},{},{},{} selects the largest part without undefined points, {} of the area; "
+          "{}",
+          text(corner.x + part->x0), text(corner.y + part->y0), text(corner.x + part->x1),
+          text(corner.y + part->y1), percent(share), advice);
   }
   detail::refuse(file, fmt::format("has {} undefined {} of {} ({}), holes up to {} wide; {}",
                                    holes.points, holes.points == 1 ? "point" : "points",
@@ -474,12 +487,13 @@ struct Corner {
                                    format_quantity(holes.width, Dimension::length, 3), advice));
 }
 
-/// What the options ask for, done to the heights of one process.
+/// Applies the options (spikes, crop, fill and so on) to a surface that one process holds as a
+/// whole.
 Surface prepared(const std::filesystem::path& file, Surface surface, const ReadOptions& options) {
   const auto warning = [&](const std::string& text) {
     if (options.warnings && !text.empty()) options.warnings->push_back(file.string() + ": " + text);
   };
-  // With fewer points no scatter of neighbours is known.
+  // On a smaller surface the scatter between neighbours cannot be estimated.
   constexpr Index min_points = 8;
   if (options.despike) {
     const std::vector<Spike> spikes = find_spikes(surface, *options.despike);
@@ -501,8 +515,8 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
   if (holes.points == 0) return surface;
   if (options.undefined == Undefined::fill_few && !holes.few())
     refuse_holes(file, surface, corner, holes);
-  warning(fmt::format("{} of {} ({}) without a height, filled by the smoothest surface",
-                     points_text(holes.points), surface.grid.points(), percent(holes.fraction)));
+  warning(fmt::format("{} of {} ({}) had no height; the smoothest surface was filled in",
+                      points_text(holes.points), surface.grid.points(), percent(holes.fraction)));
   return filled(std::move(surface));
 }
 
@@ -512,7 +526,7 @@ Surface read_whole(const std::filesystem::path& file, const ReadOptions& options
   if (options.warnings)
     for (const std::string& what :
          warnings_of_values(read.surface.heights,
-                          read.names_unit ? std::nullopt : std::optional(read.metres_per_unit)))
+                            read.names_unit ? std::nullopt : std::optional(read.metres_per_unit)))
       options.warnings->push_back(file.string() + ": " + what);
   return prepared(file, std::move(read.surface), options);
 }
@@ -526,15 +540,17 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
   if (communicator.alone()) return read_whole(file, options);
   const bool changed = options.transpose || options.despike || options.crop;
   bool by_rows = false;
-  collectively(communicator, [&] { by_rows = communicator.is_root() && !changed && detail::is_hdf5(file); });
+  collectively(communicator,
+               [&] { by_rows = communicator.is_root() && !changed && detail::is_hdf5(file); });
   communicator.broadcast(&by_rows, sizeof by_rows);
   if (by_rows) {
     const std::size_t before = options.warnings ? options.warnings->size() : 0;
-    // Each process reads its rows itself.
+    // Each process reads its own rows.
     require_one_file(file, communicator);
     detail::ReadSurface rows;
     collectively(communicator, [&] {
-      rows = detail::completed(file, detail::read_hdf5(file, options.channel, communicator), options);
+      rows =
+          detail::completed(file, detail::read_hdf5(file, options.channel, communicator), options);
     });
     rows.surface.communicator = communicator;
     const bool complete = options.undefined == Undefined::keep ||

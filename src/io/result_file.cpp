@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writer of results: HDF5 groups with named, unit-bearing datasets over coordinates.
+// Writer of results: HDF5 groups of datasets with names, units and coordinates.
 #include <numeric>
 #include <salebra/io/result_file.hpp>
 
@@ -15,7 +15,8 @@ std::vector<double> positions(Index count, double step) {
   return values;
 }
 
-/// Output is shared with the groups, so that their handles never outlive it.
+/// What a ResultFile and its groups share. Each group keeps the Output alive, so no handle of a
+/// group outlives it.
 struct ResultFile::State {
   std::shared_ptr<Output> output;
   std::vector<std::weak_ptr<ResultGroup::Place>> groups;
@@ -51,28 +52,28 @@ void ResultGroup::dataset(const std::string& name, std::span<const double> value
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
   location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
-                         {units, long_name});
+                            {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const std::int64_t> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
   location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
-                         {units, long_name});
+                            {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const float> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
   location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
-                         {units, long_name});
+                            {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const std::int16_t> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
   location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
-                         {units, long_name});
+                            {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
@@ -85,8 +86,8 @@ void ResultGroup::flags(const std::string& name, const std::vector<bool>& values
                         const std::vector<std::string>& coordinates, const std::string& long_name) {
   const std::vector<std::int8_t> bytes(values.begin(), values.end());
   Output& output = location_->open();
-  const auto dataset = output.dataset(location_->group, name, bytes.data(), bytes.size(), coordinates,
-                                      {"1", long_name});
+  const auto dataset = output.dataset(location_->group, name, bytes.data(), bytes.size(),
+                                      coordinates, {"1", long_name});
   output.attribute(dataset, "dtype", std::string_view("bool"));
 }
 
@@ -118,7 +119,7 @@ ResultFile& ResultFile::operator=(ResultFile&&) noexcept = default;
 ResultFile::~ResultFile() = default;
 
 ResultGroup ResultFile::group(const std::string& path) {
-  require(state_->output != nullptr, "result file", path, "is asked for after commit");
+  require(state_->output != nullptr, "result file", path, "is requested after commit");
   auto location = std::make_shared<ResultGroup::Place>(
       ResultGroup::Place{state_->output, state_->output->group(path)});
   state_->groups.push_back(location);
@@ -126,7 +127,7 @@ ResultGroup ResultFile::group(const std::string& path) {
 }
 
 void ResultFile::commit() {
-  require_that(state_->output != nullptr, "result file", "commit was done already");
+  require_that(state_->output != nullptr, "result file", "commit was called twice");
   for (const auto& weak : state_->groups) {
     if (const auto location = weak.lock()) {
       location->group = {};

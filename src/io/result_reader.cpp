@@ -21,8 +21,8 @@ struct ResultReader::State {
     return names;
   }
 
-  /// The object whose attributes are requested; nullptr where there is none. Throws for one that is
-  /// refused.
+  /// The object at this path, for its attributes; nullptr if there is none. Throws InvalidInput if
+  /// the object is of a refused kind.
   const Object* described(const std::string& path) const {
     const Object* object = document.find(path);
     if (!object) return nullptr;
@@ -79,7 +79,8 @@ Field ResultReader::field(const std::string& dataset, const RowPartition& partit
   const auto& extents = state_->document.numeric(dataset).shape;
   if (extents.size() != 2) detail::refuse(file(), "has no field in " + dataset);
   Field values(partition.count(), static_cast<Index>(extents[1]));
-  state_->document.rows(dataset, partition, {values.data(), static_cast<std::size_t>(values.size())});
+  state_->document.rows(dataset, partition,
+                        {values.data(), static_cast<std::size_t>(values.size())});
   return values;
 }
 
@@ -101,13 +102,17 @@ std::vector<std::string> ResultReader::coordinates(const std::string& dataset) c
 std::optional<double> ResultReader::number_attribute(const std::string& path,
                                                      const std::string& name) const {
   const Object* object = state_->described(path);
-  return object ? object->number(name) : std::nullopt;
+  if (!object) return {};
+  const auto value = object->number(name);
+  return value ? value : object->number(detail::hdf5::former_name(name));
 }
 
 std::optional<std::string> ResultReader::text_attribute(const std::string& path,
                                                         const std::string& name) const {
   const Object* object = state_->described(path);
-  return object ? object->text(name) : std::nullopt;
+  if (!object) return {};
+  const auto text = object->text(name);
+  return text ? text : object->text(detail::hdf5::former_name(name));
 }
 
 std::vector<std::string> ResultReader::attributes(const std::string& path) const {

@@ -5,7 +5,8 @@
 
 namespace salebra::detail {
 
-/// Where the size, the unit and the period of an NPY array stand.
+/// Path of the JSON file (sidecar) next to a NumPy array, which contains size, unit and period of
+/// the surface.
 inline std::filesystem::path sidecar_of(const std::filesystem::path& file) {
   return file.string() + ".json";
 }

@@ -10,7 +10,7 @@
 
 namespace salebra::detail {
 
-/// The number that stands at a place of a file's content.
+/// Converts the bytes of a number of the type Stored, which begin at `bytes`, to a double.
 template <class Stored>
 double stored_number(const char* bytes, std::endian order = std::endian::little) {
   std::array<char, sizeof(Stored)> buffer;
@@ -19,15 +19,15 @@ double stored_number(const char* bytes, std::endian order = std::endian::little)
   return static_cast<double>(std::bit_cast<Stored>(buffer));
 }
 
-/// A type of numbers in files.
+/// A type of numbers in files, and the function that converts them.
 struct StoredType {
-  std::string_view name;  ///< NumPy's: f, i or u, and the bytes
+  std::string_view name;  ///< as NumPy writes it: f, i or u, and the number of bytes
   double (*read)(const char* bytes, std::endian order) = nullptr;
 
   std::size_t bytes() const { return static_cast<std::size_t>(name.back() - '0'); }
 };
 
-/// By its name; nullptr where none is meant.
+/// The type with this name; nullptr if there is none.
 inline const StoredType* stored_type(std::string_view name) {
   static constexpr std::array types{StoredType{"f8", stored_number<double>},
                                     StoredType{"f4", stored_number<float>},

@@ -9,9 +9,9 @@
 #include "surface_importer.hpp"
 #include "text_numbers.hpp"
 
-/// Digital Surf's SUR: a header of 512 bytes at fixed places, a comment, a private zone, then
-/// heights as integers row after row. All numbers are little-endian. Places and meanings are those
-/// that the files of MountainsMap and of its readers agree on.
+/// Digital Surf's SUR: a header of 512 bytes with fields at fixed offsets, a comment, a private
+/// zone, then heights as integers row after row. All numbers are little-endian. The offsets and
+/// meanings are those on which files of MountainsMap and other readers of SUR files agree.
 namespace salebra::detail {
 namespace {
 
@@ -30,7 +30,7 @@ class SurHeader {
   std::string words(std::size_t at) const {
     const std::string_view field = content_.substr(at, 16);
     const std::string text = utf8(trimmed(field.substr(0, field.find('\0'))));
-    // Old programs write the micro sign of MS-DOS, which is another letter in Latin-1.
+    // Old programs write the micro sign of MS-DOS, whose byte is the letter æ in Latin-1.
     return text == "æm" ? "µm" : text;
   }
 
@@ -45,8 +45,8 @@ class SurHeader {
   std::string_view content_;
 };
 
-/// A replica stands for the surface it was cast from: its heights were turned over, and one axis
-/// with them or not.
+/// How the heights of a replica were inverted, so that they represent the surface of which the
+/// replica was cast: all heights change sign, and one axis may be reversed too.
 enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 }  // namespace
@@ -55,7 +55,7 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
                        const std::string&) {
   if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
   if (content.starts_with("DSCOMPRESSED"))
-    refuse_unknown(file, "is a SUR file whose points are compressed; save it uncompressed");
+    refuse_unknown(file, "is a compressed SUR file; save it uncompressed");
   const SurHeader header(content);
   if (header.int16(14) > 1)
     refuse_unknown(file, "holds " + std::to_string(header.int16(14)) +
@@ -75,11 +75,11 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
 
   LoadedSurface surface;
   surface.stated_unit = header.words(212);
-  // Heights whose unit is not stated are as the user says.
+  // If the file does not state a unit of the heights, the user must give it.
   if (!surface.stated_unit.empty()) surface.unit = "m";
   surface.lateral_unit_open = header.words(180).empty();
   if (surface.lateral_unit_open != header.words(196).empty())
-    refuse(file, "states the unit of its size along one axis alone; is it a SUR file?");
+    refuse(file, "states the unit of its size along only one axis; is it a SUR file?");
   const auto length = [&](std::size_t step, std::size_t unit) {
     return header.float32(step) * metres_per(file, header.words(unit));
   };
@@ -87,7 +87,8 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   surface.size_y = ny * length(124, 196);
   const Inversion inversion{header.int16(290)};
   const double step = inversion == Inversion::none ? length(128, 212) : -length(128, 212);
-  if (!std::isfinite(step) || step == 0) refuse(file, "has no step of heights; is it a SUR file?");
+  if (!std::isfinite(step) || step == 0)
+    refuse(file, "does not state the height step; is it a SUR file?");
   if (inversion < Inversion::none || inversion > Inversion::along_y)
     refuse(file, "has an inversion of an unknown kind; is it a SUR file?");
   const bool has_undefined = header.int16(86) == 1;

@@ -12,22 +12,23 @@
 
 namespace salebra::detail {
 
-/// A row of the table of formats, from which reader and writer are chosen, and which help, docs and
-/// fuzzers list.
+/// An entry of the table of surface formats. Readers and writers are chosen by this table. The
+/// help, the documentation and the fuzz tests list its formats.
 struct SurfaceFormatEntry {
   using Read = LoadedSurface(const std::filesystem::path& file, std::string_view content,
                              const std::string& channel);
   using Write = void(const std::filesystem::path& file, const Surface& surface,
                      const Provenance& provenance, const WriteOptions& options);
 
-  std::string_view keyword;             ///< its folder in tests/fuzz/corpus
-  std::vector<std::string_view> heads;  ///< first bytes, one of these; none: told by no bytes
-  Read* read;                           ///< null: not by its content (HDF5), or by another row
-  Write* write;                         ///< null: not written
+  std::string_view keyword;  ///< name of the folder in tests/fuzz/corpus for this format
+  /// Possible first bytes of a file; none: any content is accepted.
+  std::vector<std::string_view> heads;
+  Read* read;    ///< null for HDF5, and if another entry reads this format
+  Write* write;  ///< null: the format is not written
   SurfaceFormat facts;
 };
 
-/// Formats with heads come before text, which is what no other format claims.
+/// All entries. Formats with heads come before text, which accepts any content.
 const std::vector<SurfaceFormatEntry>& surface_format_table();
 
 }  // namespace salebra::detail

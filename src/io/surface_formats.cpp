@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of surface formats: how each is recognised, read and written, and what it keeps.
+// The table of surface formats: how each format is recognised, read and written, and what it keeps.
 #include "surface_formats.hpp"
 
 #include "surface_format.hpp"
 
 namespace salebra::detail {
 
-// Readers and writers of single formats. A format is its own source, a declaration and a row here.
+// Readers and writers of the formats. A new format needs a source file with them, a declaration
+// here, and an entry in the table below.
 SurfaceFormatEntry::Read read_gsf, read_gwy, read_npy, read_sur, read_text, read_x3p;
 SurfaceFormatEntry::Write write_gsf, write_gwy, write_hdf5, write_npy, write_text, write_xyz;
 
 const std::vector<SurfaceFormatEntry>& surface_format_table() {
   static const std::vector<SurfaceFormatEntry> table{
-      // Its library reads HDF5 from the file: read_surface.cpp.
+      // HDF5 has no reader in this table: the HDF5 library needs the file itself and not its
+      // content, so read_surface.cpp calls it.
       {"hdf5",
        {"\x89HDF\r\n\x1a\n"},
        nullptr,

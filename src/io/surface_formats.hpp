@@ -7,21 +7,24 @@
 
 namespace salebra {
 
-/// A format of surface files: what read_surface and write_surface do with it. The texts are the
+/// What read_surface() and write_surface() do with a format of surface files. The texts are the
 /// columns of the table in docs/formats.md.
 struct SurfaceFormat {
   std::string_view title;
-  std::vector<std::string_view> extensions;  ///< by which write_surface chooses it, with the point
-  std::string_view read;                     ///< what is read of it; empty: nothing
-  std::string_view written;  ///< what is written; empty: nothing, and nothing is kept
-  /// What reading gives back of what was written.
+  /// With the dot; write_surface() chooses the format by them.
+  std::vector<std::string_view> extensions;
+  std::string_view read;     ///< describes what is read; empty: not read
+  std::string_view written;  ///< describes what is written; empty: not written
+  /// Whether heights, size and so on survive writing and reading; empty if the format is not
+  /// written.
   std::string_view heights, size, undefined_points, periodic, provenance;
 };
 
 /// All formats, as the table of docs/formats.md lists them.
 std::vector<SurfaceFormat> surface_formats();
 
-/// ".h5 .npy …": the first extension of each format that is read, or written, for help and messages.
+/// The first extension of each format that can be read, or written, as in ".h5 .npy …"; for help
+/// and messages.
 std::string read_extensions();
 std::string written_extensions();
 

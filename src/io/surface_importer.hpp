@@ -8,27 +8,28 @@
 
 namespace salebra {
 
-/// Thrown for a file that is whole, as far as one can tell, and of no format that is read here.
+/// Thrown for a file whose format the library does not know. The file may be undamaged.
 class UnknownFormat : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;
 };
 
-/// Writes the surface in `from` as the HDF5 file `to`, as read_surface reads it. refusal: why it is
-/// not read here; channel: as ReadOptions has it. Returns lines for ReadOptions::warnings. Throws InvalidInput naming the file where
-/// it cannot.
+/// Function that converts the surface in the file `from` to the HDF5 file `to`, which
+/// read_surface() then reads. refusal: why the library does not read `from`; channel: as in
+/// ReadOptions. Returns lines for ReadOptions::warnings. Throws InvalidInput naming the file if it
+/// cannot convert it.
 using SurfaceImporter = std::vector<std::string> (*)(const std::filesystem::path& from,
                                                      const std::filesystem::path& to,
                                                      const std::string& channel,
                                                      const UnknownFormat& refusal);
 
-/// Who is asked from now on for files of unknown formats; nullptr, as at the start: nobody, and they
-/// are refused. The program installs one that calls salebra-import; a library call never starts a
-/// process on its own.
+/// Sets the function that imports files of unknown formats. With nullptr, the default, such files
+/// are refused. The program installs one that calls salebra-import. The library alone never starts
+/// a process.
 void set_surface_importer(SurfaceImporter importer);
 
 namespace detail {
-/// UnknownFormat "<file>: <what>".
+/// Throws UnknownFormat with the text "<file>: <what>".
 [[noreturn]] void refuse_unknown(const std::filesystem::path& file, const std::string& what);
 }  // namespace detail
 

@@ -9,14 +9,15 @@
 
 #include "json.hpp"
 
-/// What the writers behind write_surface share. It has checked the surface.
+/// Functions that the writers of surface formats share. write_surface() checks the surface before
+/// it calls a writer.
 namespace salebra::detail {
 
-/// Size, unit, origin and provenance as a JSON object, for formats that have no place of their own
+/// Size, unit, origin and provenance of a surface as a JSON object, for formats that have no fields
 /// for them.
 Json description_of(const Surface& surface, const Provenance& provenance);
 
-/// Appends the shortest digits that read back as the same double, or "nan".
+/// Appends a number with as few digits as give the same double when read back, or "nan".
 void append_number(std::string& text, double value);
 
 }  // namespace salebra::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meaning of the columns of a text, by their numbers and by their titles.
+// Finds out from the numbers and titles of a text what its columns contain.
 #include "text_columns.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ bool is_monotone(const TextRows& rows, Index column) {
 
 namespace {
 
-/// Numbers of a row or a column.
+/// The numbers of one row or one column, from an index `first` on.
 struct Line {
   const TextRows& rows;
   bool along_row;
@@ -34,13 +34,14 @@ struct Line {
   double operator[](Index i) const { return along_row ? rows(at, i + first) : rows(i + first, at); }
 };
 
-/// The step of equally spaced numbers, of which there are enough not to be so by chance.
+/// The step of equally spaced numbers. Nothing if they are not equally spaced, or if there are
+/// fewer than `least`, which may be equally spaced by chance.
 std::optional<double> step_of(const Line& line, Index least) {
   const Index count = line.size();
   if (count < least) return {};
   const double step = (line[count - 1] - line[0]) / static_cast<double>(count - 1);
   if (step == 0 || !std::isfinite(step)) return {};
-  // Coordinates are written with few digits.
+  // Relative tolerance of the steps, since coordinates are rounded to few digits.
   constexpr double rounding = 1e-3;
   for (Index i = 1; i < count; ++i)
     if (!(std::abs(line[i] - line[0] - static_cast<double>(i) * step) <= rounding * std::abs(step)))
@@ -106,12 +107,12 @@ Margins margins_of(const TextRows& rows) {
              along_y = step_of(column_behind, no_corner ? 2 : least);
   const auto inner_x = step_of(Line{rows, true, 1, 1}, 2),
              inner_y = step_of(Line{rows, false, 1, 1}, 2);
-  // Coordinates or numbers above and beside the heights.
+  // The first row and the first column contain coordinates, or only number the columns and rows.
   if (along_x && along_y && (no_corner || (!inner_x && !inner_y && rows.columns > 3))) {
     margins.row = margins.column = true;
     if (!counts(row_behind, along_x) || !counts(column_behind, along_y)) {
       if (*along_x < 0 || *along_y < 0)
-        margins.fault = "has falling coordinates in its first row or column; turn the matrix over";
+        margins.fault = "has decreasing coordinates in its first row or column; reverse the matrix";
       margins.step_x = along_x;
       margins.step_y = along_y;
     }
@@ -119,9 +120,9 @@ Margins margins_of(const TextRows& rows) {
   }
   if (no_corner && (along_x || along_y))
     margins.fault =
-        "has no number in the corner of an equally spaced row or column, which is no line of "
-        "heights; remove that line";
-  // Numbers of the rows alone, or of the columns.
+        "has no number in the corner of an equally spaced row or column, which therefore cannot "
+        "hold heights; remove that row or column";
+  // Next case: only the first column numbers the rows, or only the first row numbers the columns.
   constexpr Index min_numbers = 5;
   const auto down = step_of(column, min_numbers);
   const auto next_down = step_of(Line{rows, false, 1}, least);
@@ -132,8 +133,8 @@ Margins margins_of(const TextRows& rows) {
     if (!counts(column, down)) {
       if (rows.rows < certain || rows.columns < least) return margins;
       margins.fault =
-          "has a first column of equally spaced numbers, which are no heights; remove it, or name "
-          "its columns";
+          "has a first column of equally spaced numbers, which do not look like heights; remove "
+          "it, or name the columns";
       return margins;
     }
     margins.column = true;
@@ -143,7 +144,8 @@ Margins margins_of(const TextRows& rows) {
   if (across && !step_of(Line{rows, true, 1, titles.first}, least)) {
     if (!counts(titles, across)) {
       if (titles.size() < certain) return margins;
-      margins.fault = "has a first row of equally spaced numbers, which are no heights; remove it";
+      margins.fault =
+          "has a first row of equally spaced numbers, which do not look like heights; remove it";
       return margins;
     }
     margins.row = true;
@@ -167,7 +169,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
         std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); });
     if (!numbers_of_rows() && plain && count > 3) return {};
     if (!numbers_of_rows())
-      refuse(file, quote + ", names fewer columns than there are; name each or none");
+      refuse(file, quote + ", names fewer columns than there are; name all or none");
     titles.insert(titles.begin(), HeaderTitle{index, "", "index"});
   }
   if (titles.front().text.empty() && count > 1 && numbers_of_rows())
@@ -183,7 +185,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
   if (count > most) {
     if (std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); }))
       return {};
-    refuse(file, quote + ", names units of columns that are not understood; name them for all");
+    refuse(file, quote + ", names units of columns that are not known; name units for all columns");
   }
   std::vector<Role> roles;
   std::vector<Index> kept;
@@ -208,17 +210,19 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
   };
   const auto not_understood = [&](Index i) {
     refuse(file, quote + ", names the column " + quoted(title(i)) +
-                     ", which is not understood; name the columns x, y and z");
+                     ", which is not known; name the columns x, y and z");
   };
   const auto several = [&](Index a, Index b) {
     refuse(file, quote + ", names several columns of heights, " + quoted(title(a)) + " and " +
                      quoted(title(b)) + "; keep one of them");
   };
-  // A column that is not understood is none of heights where those have a unit and it has none.
+  // If the title of the heights states a unit, then a column whose title states no unit of length
+  // contains no heights.
   const auto is_other = [&](Index i, Index of_z) {
     return !title(of_z).unit.empty() && !is_length(title(i).unit);
   };
-  // Positions that rise, heights, and what is in no unit of length: a profile.
+  // Index of the positions and of the heights of a line profile: positions that rise or fall,
+  // heights, and otherwise only columns whose unit is no length.
   const auto profile_with_others = [&]() -> std::optional<std::pair<Index, Index>> {
     std::optional<Index> along_x, of_z;
     for (const Index i : kept) {
@@ -234,11 +238,11 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
       return {};
     return std::pair(*along_x, *of_z);
   };
-  if (kept.empty()) refuse(file, quote + ", names no column of heights; name one z");
+  if (kept.empty()) refuse(file, quote + ", does not name a column of heights; name one z");
   if (kept.size() == 1) {
     const Role only = role(kept[0]);
     if (only == Role::x || only == Role::y || only == Role::position)
-      refuse(file, quote + ", names no column of heights; name one z");
+      refuse(file, quote + ", does not name a column of heights; name one z");
     result.z = kept[0];
   } else if (kept.size() == 2) {
     const auto is_position = [&](Index i) {
@@ -249,7 +253,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     if (role(a) == Role::height || role(b) == Role::height) {
       result.z = role(a) == Role::height ? a : b;
     } else if (is_position(a) && is_position(b)) {
-      // x and y of a plot.
+      // Titles of two positions: they are x and y of a plotted profile, so y contains the heights.
       if (role(a) == Role::y || role(b) != Role::y) not_understood(b);
       result.z = b;
     } else if (is_position(a) || is_position(b)) {
@@ -295,7 +299,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
       not_understood(unclear.empty() ? kept[0] : unclear[0]);
     }
     for (const Index i : unclear) {
-      // Zeros and ones may say which points are valid.
+      // A column that contains only zeros and ones may mark the valid points.
       bool both = true, zero = false, one = false;
       for (Index row = 0; row < rows.rows && both; ++row) {
         zero = zero || rows(row, i) == 0;
@@ -318,7 +322,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     for (const char* depth : {"depth", "tiefe", "profondeur", "fukasa"})
       if (name.find(depth) != name.npos)
         result.warnings.push_back("the column " + quoted(title(*result.z)) +
-                                 " is read as heights, positive out of the material");
+                                  " is read as heights, positive out of the material");
   }
   return result;
 }

@@ -9,33 +9,38 @@
 #include "text_header.hpp"
 #include "text_rows.hpp"
 
-/// What the columns of a text are: heights of a matrix, positions, coordinates, line numbers.
+/// Decides what the columns of a text contain: heights of a matrix, positions, coordinates or
+/// numbers of lines.
 namespace salebra::detail {
 
-/// Rows and columns beside the heights of a matrix, by their numbers.
+/// Whether the first row and the first column of a matrix contain labels instead of heights.
 struct Margins {
-  bool row = false, column = false;      ///< the first ones are no heights
-  std::optional<double> step_x, step_y;  ///< of coordinates in them; nothing where they count
-  std::string fault;                     ///< why the rows are no matrix; empty where they may be
+  /// Whether the first row, the first column contains labels.
+  bool row = false, column = false;
+  /// Step of the coordinates in the labels; empty: the labels only count.
+  std::optional<double> step_x, step_y;
+  std::string fault;  ///< why the rows cannot be a matrix; empty if they can
 };
 
-/// Numbers that count the rows and columns, or coordinates in the first row and column. It is a
-/// fault where one of them is equally spaced and may be either.
+/// Finds out from the numbers whether the first row and the first column are labels: they count the
+/// columns and rows, or contain coordinates. Sets `fault` if an equally spaced row or column may be
+/// labels or heights.
 Margins margins_of(const TextRows& rows);
 
-/// Whether a column rises from row to row, or falls.
+/// Whether the numbers of a column rise from each row to the next, or fall from each row to the
+/// next.
 bool is_monotone(const TextRows& rows, Index column);
 
-/// The columns that hold what a surface or a profile needs, by the titles.
+/// Indices and units of the columns that contain a surface (x, y, z) or a profile (x, z).
 struct Columns {
-  std::optional<Index> x, y, z;  ///< of a profile x and z
+  std::optional<Index> x, y, z;  ///< a profile has only x and z
   std::string x_unit, y_unit, z_unit;
   std::vector<std::string> warnings;
 };
 
-/// By titles, which there are as many as columns. Nothing where they say nothing of the columns.
-/// Throws InvalidInput where they name a mask, several columns of heights or a column that is not
-/// understood.
+/// Finds the columns by the titles in the header, which has one title for each column. Nothing if
+/// the titles do not name the columns needed. Throws InvalidInput if they name a mask, several
+/// columns of heights, or a column that is not understood.
 std::optional<Columns> columns_of(const std::filesystem::path& file, const TextRows& rows,
                                   const TextHeader& header);
 

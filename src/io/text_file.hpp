@@ -7,8 +7,8 @@
 
 namespace salebra {
 
-/// Writes a text, such as a table or a JSON document, as a file. Throws as require_output; IoError
-/// when the system refuses.
+/// Writes a text, such as a table or a JSON document, to a file. Throws as require_output() does,
+/// and IoError if a system call fails.
 void write_text_file(const std::filesystem::path& file, std::string_view text,
                      const WriteOptions& options = {});
 

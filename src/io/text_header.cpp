@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of a text beside its numbers: keys with values, and names of columns with units.
+// Reader of the lines around the numbers of a text: keys with values, titles of columns, units.
 #include "text_header.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ bool has(Tokens tokens, Kind kind) {
   return std::ranges::find(tokens, kind, &HeaderToken::kind) != tokens.end();
 }
 
-/// A word that is a unit of length wherever it stands. "um" is a German word, "m" stands for much,
-/// "pm" and "am" for a time.
+/// Whether a word is a unit of length wherever it stands. Excluded are "um", which is also a German
+/// word, "m", which has many meanings, "pm" and "am", which follow times, and "in".
 bool is_plain_unit(const HeaderToken& token) {
   const std::string word = plain_word(token.text);
   return token.kind == Kind::word && token.text.size() > 1 && word != "um" && word != "pm" &&
@@ -54,8 +54,8 @@ struct WrittenNumber {
   double half_digit;
 };
 
-/// A number of a header; nothing where its marks can be read in two ways. Three digits behind a
-/// mark may be thousands, unless the numbers of the file show which mark is decimal.
+/// Parses a number of a header. Nothing if its points or commas can be read in two ways: three
+/// digits after a mark may be thousands, unless the numbers of the file show which mark is decimal.
 std::optional<WrittenNumber> parsed(std::string text, const NumberLayout& layout) {
   std::erase(text, '\'');
   const auto comma = text.find(','), point = text.find('.');
@@ -77,7 +77,8 @@ std::optional<WrittenNumber> parsed(std::string text, const NumberLayout& layout
     const bool known = mark == ',' ? layout.decimal_commas : layout.decimal_points;
     const bool refuted =
         mark == ',' ? layout.decimal_points || layout.comma_separates : layout.decimal_commas;
-    // Numbers with points are also written where commas are decimal elsewhere, not the reverse.
+    // If the numbers of the file have decimal commas, its header may still have decimal points, but
+    // not the reverse.
     if (!known && (refuted ? mark == ',' || thousands : thousands && mark == ',')) return {};
   }
   std::ranges::replace(text, ',', '.');
@@ -101,7 +102,7 @@ std::optional<WrittenNumber> parsed(std::string text, const NumberLayout& layout
   return WrittenNumber{value, 0.5 * std::pow(10., power - digits)};
 }
 
-/// A count may have marks of thousands, which a length may not.
+/// Parses a number of points, which may have thousands separators, unlike a length.
 std::optional<Index> parsed_count(std::string text) {
   const auto first = text.find_first_not_of("+0123456789.,'");
   if (first != text.npos) return {};
@@ -110,7 +111,7 @@ std::optional<Index> parsed_count(std::string text) {
                        [](char symbol) { return symbol >= '0' && symbol <= '9'; });
   const auto mark = text.find_first_of(".,'");
   if (mark != text.npos) {
-    // "64.0" counts too.
+    // "64.0" is a number of points too.
     if (text.find_first_not_of("0", mark + 1) == text.npos)
       digits = text.substr(0, mark);
     else if ((text.size() - mark) % 4 != 0)
@@ -122,13 +123,14 @@ std::optional<Index> parsed_count(std::string text) {
   return count;
 }
 
-/// A number of a value, with the unit behind it.
+/// A number in the value of an entry, and the unit after it.
 struct Quantity {
   std::string text;
   const HeaderToken* unit = nullptr;
 };
 
-/// Titles of columns in one line; empty where the line is none.
+/// The titles of columns in a line; empty if the line does not consist of titles. columns: number
+/// of columns in the file.
 std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns);
 
 class HeaderReader {
@@ -137,7 +139,7 @@ class HeaderReader {
       : file_(file), layout_(layout) {}
 
   void read(const HeaderLine& line) {
-    // A longer line is no line of a header.
+    // Only this number of bytes of a line is read, since no line of a header is longer.
     constexpr std::size_t max_looked_at = 2000;
     const std::string decoded = utf8(line.text);
     std::string_view text = without_spaces(decoded);
@@ -162,7 +164,8 @@ class HeaderReader {
     std::string text(line_);
     if (text.size() > max_quoted) {
       std::size_t end = max_quoted;
-      while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter
+      // Does not cut a UTF-8 letter.
+      while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
       text = text.substr(0, end) + "\u2026";
     }
     return "line " + std::to_string(number_) + ", '" + text + "'";
@@ -170,11 +173,11 @@ class HeaderReader {
 
   void refuse_line() { header_.unaccounted.push_back(quoted()); }
 
-  /// Whether every token of the line is accounted for.
+  /// Reads a line. Returns whether all its tokens were understood.
   bool read_line(Tokens tokens) {
     if (!has(tokens, Kind::assign)) return read_words(tokens);
     while (tokens.front().kind == Kind::separator) tokens = tokens.subspan(1);
-    // Each key is the words before a colon or an equals sign.
+    // The words before a colon or an equals sign are the key.
     std::size_t begin = 0;
     bool all = true;
     while (begin < tokens.size()) {
@@ -187,11 +190,13 @@ class HeaderReader {
       if (next == tokens.size()) {
         end = next;
       } else {
-        // The next key begins behind the last number, unit in no bracket, date or separator.
+        // The next key begins after the last number, date, separator or unit (without brackets)
+        // before the next colon or equals sign.
         end = next;
         while (end > assign + 1 && (tokens[end - 1].kind == Kind::word || tokens[end - 1].bracket))
           --end;
-        // A colon within a text, or behind nothing but a value.
+        // If no word precedes that colon or equals sign, it does not begin an entry: it is part of
+        // a text or follows a value. The value then reaches to the end of the line.
         if (end == assign + 1 || end == next) end = tokens.size();
       }
       all = read_entry(
@@ -202,8 +207,8 @@ class HeaderReader {
     return all;
   }
 
-  /// A line without a colon or equals sign: titles of columns, units, a key with its value, or
-  /// text.
+  /// Reads a line without colon or equals sign: titles of columns, units, a key with its value, or
+  /// text. Returns whether it was understood.
   bool read_words(Tokens tokens) {
     const auto number = std::ranges::find(tokens, Kind::number, &HeaderToken::kind);
     const auto columns = layout_.titled_columns;
@@ -216,7 +221,7 @@ class HeaderReader {
     if ((!free_number || (titles_apart && numbers_names(tokens))) && !has(tokens, Kind::date)) {
       if (read_titles(tokens)) return true;
       if (read_unit_line(tokens)) return true;
-      // Names of columns that do not fit the columns.
+      // Otherwise the line may name columns, but fewer or more than the file has.
       constexpr Index max_titled = 8;
       const Meaning axes = meaning::x | meaning::y | meaning::plane | meaning::z | meaning::height |
                            meaning::ordinate | meaning::position;
@@ -230,13 +235,13 @@ class HeaderReader {
       const auto before = static_cast<std::size_t>(number - tokens.begin());
       return read_entry(tokens.first(before), tokens.subspan(before));
     }
-    // "Einheit Höhe;µm"
+    // A key and its unit, such as "Einheit Höhe;µm".
     if (tokens.size() > 1 && (meaning_of(tokens.first(tokens.size() - 1)) & meaning::unit))
       return read_entry(tokens.first(tokens.size() - 1), tokens.last(1));
     return !names_length(tokens);
   }
 
-  /// Whether numbers tell columns apart: "x;Profile 1;Profile 2".
+  /// Whether the numbers in a line distinguish columns, as in "x;Profile 1;Profile 2".
   bool numbers_names(Tokens tokens) const {
     if (layout_.titled_columns < 3) return false;
     for (std::size_t i = 0; i < tokens.size(); ++i)
@@ -271,7 +276,7 @@ class HeaderReader {
       titles_quote_ = quoted();
       return true;
     }
-    // Units of the axes of a matrix.
+    // Otherwise the line may state the units of the axes of a matrix.
     constexpr Index max_titled = 3;
     if (layout_.titled_columns <= max_titled && layout_.titled_columns > 1 && titles.size() > 1)
       return false;
@@ -295,7 +300,7 @@ class HeaderReader {
     return true;
   }
 
-  /// A line of nothing but a unit, for the heights.
+  /// Reads a line that contains only the unit of the heights. Returns whether it does.
   bool read_unit_line(Tokens tokens) {
     if (tokens.size() != 1 || !(is_unit(tokens[0]) || is_length_unit(tokens[0].text))) return false;
     if (layout_.titled_columns == 2 || layout_.titled_columns == 3) return false;
@@ -307,7 +312,7 @@ class HeaderReader {
     if (!target.empty() && target != unit &&
         metres_in(target).value_or(-1) != metres_in(unit).value_or(-2))
       refuse(file_,
-             quoted() + ", contradicts the unit '" + target + "' of a line before; correct one");
+             quoted() + ", contradicts the unit '" + target + "' of an earlier line; correct one");
     target = unit;
   }
 
@@ -324,7 +329,8 @@ class HeaderReader {
     if (a.metres.has_value() != b.metres.has_value()) return false;
     const double unit_a = a.metres ? *a.metres / a.number : 1,
                  unit_b = b.metres ? *b.metres / b.number : 1;
-    // A number of one digit is as a rule not rounded to it.
+    // Two lengths agree within half their last digits, but at most within 1 %: a number with one
+    // digit is usually exact, so half a digit would be too much.
     constexpr double most = 0.01;
     const double tolerance =
         std::min(a.half_digit * std::abs(unit_a) + b.half_digit * std::abs(unit_b),
@@ -341,7 +347,7 @@ class HeaderReader {
     while (!value.empty() && value.front().kind == Kind::separator) value = value.subspan(1);
     while (key.back().kind == Kind::separator && key.size() > 1) key = key.first(key.size() - 1);
     Meaning meaning = meaning_of(key);
-    // "No data" is no negation.
+    // In "no data", which marks undefined points, "no" does not negate.
     std::string joined;
     for (const HeaderToken& token : key) joined += plain_word(token.text);
     if (joined.find("nodata") != joined.npos) meaning = meaning::missing;
@@ -351,7 +357,7 @@ class HeaderReader {
     return read_text(key, meaning, value);
   }
 
-  // A value without numbers.
+  /// Reads an entry whose value has no numbers. Returns whether it was understood.
   bool read_text(Tokens key, Meaning meaning, Tokens value) {
     using namespace meaning;
     const bool one = value.size() == 1 && !has(key, Kind::length);
@@ -377,7 +383,7 @@ class HeaderReader {
       return true;
     }
     if (is_length || (is_other && (meaning & (z | height)))) {
-      // "Z: nm"
+      // The value is a unit, as in "Z: nm".
       if (meaning & (unknown | harmless | size | pixel | step | factor | alters)) return false;
       if (meaning & (z | height | ordinate | values))
         set_unit(header_.value_unit, value[0].text);
@@ -393,7 +399,7 @@ class HeaderReader {
       return (said & no) && !(said & unknown);
     }
     if ((has(value, Kind::length) || has(value, Kind::other)) && read_titles(value)) return true;
-    // A channel that is no height.
+    // An entry that names the channel of the file, and this channel is not the heights.
     const Meaning said = meaning_of(value);
     const bool channel = std::ranges::any_of(key, [](const HeaderToken& token) {
       const std::string word = plain_word(token.text);
@@ -403,7 +409,7 @@ class HeaderReader {
     return !names_length(value) && !names_length(key);
   }
 
-  /// A value with numbers.
+  /// Reads an entry whose value has numbers. Returns whether it was understood.
   bool read_numbers(Tokens key, Meaning meaning, Tokens value) {
     using namespace meaning;
     const auto unit_of_key = std::ranges::find(key, Kind::length, &HeaderToken::kind);
@@ -456,7 +462,7 @@ class HeaderReader {
       return !(meaning & carrying & ~points);
     }
     if (all_are(Kind::other)) return !(meaning & ((carrying & ~size) | ordinate));
-    // "Licence no.: 99812"
+    // A number that only counts, as in "Licence no.: 99812".
     if ((meaning & index) && numbers && quantities.size() == 1 && said == 0)
       return !(meaning & (carrying | ordinate | missing | mask));
     if (has_other(quantities, kind_of)) return false;
@@ -485,7 +491,8 @@ class HeaderReader {
     if (said & (x | y | position)) return false;
     if (numbers && (said & (points | pixel | columns | rows))) return false;
     if (!lengths && !numbers) {
-      // "10 x 10 µm"
+      // Two sizes of which only the second has a unit, as in "10 x 10 µm": the unit belongs to
+      // both.
       if (quantities.size() != 2 || !quantities[1].unit) return false;
       quantities[0].unit = quantities[1].unit;
     }
@@ -499,8 +506,9 @@ class HeaderReader {
         quantities, [&](const Quantity& quantity) { return kind_of(quantity) == Kind::other; });
   }
 
-  /// "Z conversion factor: 1e-9 m", "Height factor: 0.3 nm/digit". A "Z scale" of a length may be
-  /// that of a picture.
+  /// Reads a factor of the heights, such as "Z conversion factor: 1e-9 m" or "Height factor: 0.3
+  /// nm/digit". Returns false for a "Z scale" that is a length, since it may be the colour scale of
+  /// a picture.
   bool states_height_factor(Meaning meaning, const std::vector<Quantity>& quantities,
                             const HeaderToken* unit_of_key) {
     using namespace meaning;
@@ -529,7 +537,7 @@ class HeaderReader {
                             ? parsed(quantities[0].text, layout_)
                             : std::nullopt;
     if (!number || number->value == 0)
-      refuse(file_, quoted() + ", states no height conversion factor; correct it");
+      refuse(file_, quoted() + ", does not state a height conversion factor; correct it");
     if (close == line_.npos || close < arrow + 2)
       refuse(file_, quoted() +
                         ", does not say what its height conversion factor converts to; write "
@@ -540,7 +548,7 @@ class HeaderReader {
     return true;
   }
 
-  /// Whether the entry states numbers of points.
+  /// Reads an entry that states numbers of points. Returns whether it does.
   bool read_counts(Meaning meaning, const std::vector<Quantity>& quantities, Tokens key) {
     using namespace meaning;
     const Meaning counting = columns | rows | points | count | pixel | resolution;
@@ -570,7 +578,7 @@ class HeaderReader {
     const bool along_x = (meaning & (columns | x | width)) || per_line,
                along_y = !per_line && (meaning & (rows | y));
     if (along_x && along_y) return false;
-    // A bare number behind "Width" or "Pixel size" is a count where it is that of the file.
+    // After "Width" a number without unit is a number of points if the file has as many columns.
     const bool certain =
         (meaning & (columns | rows | points | count | resolution)) && !(meaning & (size | width));
     const Index found = along_x ? layout_.columns : along_y ? layout_.rows : -1;
@@ -606,7 +614,7 @@ class HeaderReader {
     if (distances && !(meaning & step) &&
         !(meaning & (size | width | height | length | resolution)) && !per_pixel &&
         !(meaning & (x | y | plane)))
-      return false;  // "Pixel: 1.1 mm" may be anything
+      return false;  // an entry such as "Pixel: 1.1 mm" has more than one meaning
     const bool along_x = meaning & (x | width | columns), along_y = meaning & (y | height | rows);
     if (along_x && along_y) return false;
     auto& first = distances ? header_.pixel_x : header_.width;
@@ -621,7 +629,8 @@ class HeaderReader {
       set(header_.length, lengths[0]);
       return true;
     }
-    // One size of a scan is that of both axes where the points say so.
+    // A single size belongs to both axes, if the file has as many columns as rows or the key says
+    // so.
     if (!along_x && !along_y && !distances && !(meaning & plane) && layout_.columns != layout_.rows)
       return false;
     if (!along_y) set(first, lengths[0]);
@@ -629,7 +638,8 @@ class HeaderReader {
     return true;
   }
 
-  /// As parse_quantity, which divides by powers of ten that are exact.
+  /// Length in metres of the number `text`. parse_quantity() rounds correctly, since it divides by
+  /// exact powers of ten; `number` times the unit would not.
   static double metres_of(const std::string& text, double number, const std::string& unit) {
     try {
       return parse_quantity(text + " " + unit, Dimension::length, "length");
@@ -646,7 +656,7 @@ class HeaderReader {
   std::string titles_quote_;
 };
 
-/// The title of one column from its words.
+/// Makes the title of one column from its words.
 HeaderTitle title_of(Tokens tokens) {
   HeaderTitle title;
   for (const HeaderToken& token : tokens) {
@@ -657,7 +667,7 @@ HeaderTitle title_of(Tokens tokens) {
         (is_length_unit(token.text) ||
          (is_other_unit(token.text) && detail::meaning_of(token.text) == meaning::unknown));
     if (is_unit(token) || (token.kind == Kind::word && behind_name)) {
-      // Two units of one column: one of them is something else.
+      // A column with two units is not understood.
       if (!title.unit.empty()) title.meaning |= meaning::unknown;
       title.unit = token.text;
     } else if (token.kind == Kind::word) {
@@ -677,8 +687,8 @@ constexpr Meaning naming = meaning::x | meaning::y | meaning::plane | meaning::z
                            meaning::length | meaning::step | meaning::harmless | meaning::unknown |
                            meaning::rows | meaning::points;
 
-/// Columns of words without separators: a unit ends a column, and a name begins one, unless it says
-/// more of the same: "Position X", "Z height".
+/// Splits words without separators into titles of columns. A unit ends a title. A name begins a new
+/// title, unless it completes the name before it, as in "Position X" and "Z height".
 std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
   std::vector<std::vector<HeaderToken>> groups(1);
   const auto units = std::ranges::count_if(tokens, is_unit);
@@ -701,7 +711,8 @@ std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
     const Meaning here = detail::meaning_of(token.text) & naming;
     const Meaning axes = meaning::x | meaning::y | meaning::plane;
     const Meaning heights = meaning::z | meaning::height | meaning::ordinate | meaning::values;
-    // "Stylus position"
+    // A word that only describes the instrument does not begin a title: "Stylus position" is a
+    // position.
     const bool condition = meaning == meaning::harmless && here != meaning::harmless;
     const bool axis_alone = (meaning & ~(axes | meaning::z)) == 0 && meaning != 0;
     const bool more =
@@ -721,7 +732,7 @@ std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
   return groups;
 }
 
-/// expand   a name of x and y alike stands for two columns
+/// expand: whether a name for both x and y makes two titles.
 std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns, bool expand) {
   std::vector<HeaderTitle> titles;
   const auto add = [&](Tokens group) {
@@ -759,7 +770,8 @@ std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns, bool expand) {
     return titles;
   }
   for (const auto& group : groups_of(tokens, columns)) add(group);
-  // A text is no row of titles, unless it has as many words as there are columns.
+  // If a word names no column, the line is text, unless it has as many titles as the file has
+  // columns.
   if (titles.size() != static_cast<std::size_t>(columns) &&
       std::ranges::any_of(titles, [](const HeaderTitle& title) {
         const bool named = (title.meaning & naming & ~(meaning::unknown | meaning::harmless)) != 0;

@@ -12,63 +12,66 @@
 
 namespace salebra::detail {
 
-/// A line of text that holds no numbers of the surface.
+/// A line of a text file that contains no numbers of the surface.
 struct HeaderLine {
   int number;
   std::string text;
 };
 
-/// What the numbers show that a header is read by.
+/// Properties of the numbers of a text file that help to understand its header.
 struct NumberLayout {
-  Index titled_columns = 0, lines = 0;                  ///< in the file
-  Index columns = 0, rows = 0;                          ///< without such that number them
-  bool decimal_points = false, decimal_commas = false;  ///< whether numbers have shown them
+  /// Number of all columns, and of all lines of numbers.
+  Index titled_columns = 0, lines = 0;
+  /// Numbers of columns and rows without those that only count.
+  Index columns = 0, rows = 0;
+  /// Whether some number of the file has a decimal point, a decimal comma.
+  bool decimal_points = false, decimal_commas = false;
   bool comma_separates = false;
 };
 
-/// The name of a column and its unit.
+/// The name of a column, and its unit.
 struct HeaderTitle {
-  Meaning meaning = 0;    ///< 0 where the column has no name
-  std::string unit = {};  ///< as written; empty where there is none
+  Meaning meaning = 0;    ///< meanings of the name; 0 if the column has none
+  std::string unit = {};  ///< as written; empty if there is none
   std::string text = {};
 };
 
-/// A length that a header states.
+/// A length that the header states.
 struct StatedLength {
-  double number = 0;                  ///< as written
-  double half_digit = 0;              ///< half a unit of its last digit
-  std::optional<double> metres = {};  ///< in its unit; nothing where it has none
-  std::string quote = {};             ///< the line
+  double number = 0;                  ///< the number as the file states it
+  double half_digit = 0;              ///< half of the place value of its last digit
+  std::optional<double> metres = {};  ///< the length, m; nothing if it has no unit
+  std::string quote = {};             ///< the line that states it, for messages
 };
 
-/// A number of points that a header states.
+/// A number of points that the header states.
 struct StatedCount {
   Index count;
   std::string quote;
 };
 
-/// What the lines beside the numbers say.
+/// What the lines around the numbers state.
 struct TextHeader {
-  std::optional<StatedLength> width, height;     ///< of the scan
-  std::optional<StatedLength> pixel_x, pixel_y;  ///< distance of the points
-  std::optional<StatedLength> length;            ///< of a profile
+  std::optional<StatedLength> width, height;     ///< size of the scan along x and along y
+  std::optional<StatedLength> pixel_x, pixel_y;  ///< distance of the points along x and along y
+  std::optional<StatedLength> length;            ///< length of a profile
   std::optional<double> height_factor;           ///< metres per value
   std::vector<StatedCount> columns, rows;
-  std::vector<StatedCount> points;  ///< in all, or along each axis of a square
+  std::vector<StatedCount> points;  ///< number of all points, or along each axis of a square
   std::vector<double> missing;      ///< values that mark undefined points
   std::string x_unit, y_unit, value_unit;
-  std::string common_unit;          ///< of the axes that have none of their own
-  std::vector<HeaderTitle> titles;  ///< one for each column; empty where no line names them
+  std::string common_unit;          ///< unit of those axes for which no unit of their own is stated
+  std::vector<HeaderTitle> titles;  ///< one for each column; empty if no line names them
   std::string titles_quote;
-  /// Lines with a unit or a number that is not understood, quoted.
+  /// Quotes of the lines that contain a unit or a number and were not understood.
   std::vector<std::string> unaccounted;
 };
 
-/// Reads the lines beside the numbers:
+/// Reads the lines around the numbers of a text file. Forms of lines:
 ///     # Key: value      key=value key=value      Key;value      names of columns with units
-/// Each token that bears a unit or a number is used, known to say nothing about the numbers (dates,
-/// serial numbers, magnifications), or its line is one of TextHeader::unaccounted.
-/// Throws InvalidInput where lines contradict each other.
+/// A unit or number in these lines is used, or is known to be irrelevant (dates, serial numbers,
+/// magnifications), or its line is added to TextHeader::unaccounted. Throws InvalidInput if lines
+/// contradict each other.
 TextHeader read_header(const std::filesystem::path& file, const std::vector<HeaderLine>& lines,
                        const NumberLayout& layout);
 

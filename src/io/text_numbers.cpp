@@ -24,10 +24,10 @@ bool is_blank(char symbol) { return symbol == ' ' || symbol == '\t'; }
 constexpr std::size_t piece_size = std::size_t{1} << 20;
 
 [[noreturn]] void refuse_bytes(const std::filesystem::path& file) {
-  refuse_unknown(file,
-                 "is neither text (it holds NUL bytes) nor of another format that is read; "
-                 "convert it to one of " +
-                     read_extensions());
+  refuse_unknown(
+      file,
+      "is not text (it holds NUL bytes) and not in another readable format; convert it to one of " +
+          read_extensions());
 }
 
 std::string_view without_mark(std::string_view content) {
@@ -35,7 +35,8 @@ std::string_view without_mark(std::string_view content) {
   return content;
 }
 
-// A vector that is full moves into one of twice its size, beside it.
+// Throws InvalidInput if `full` values cannot grow further: a full vector is copied to a new one of
+// twice the size, and for a moment both are in memory.
 void require_memory(const std::filesystem::path& file, std::size_t full) {
   const double bytes = 2. * sizeof(double) * static_cast<double>(full);
   if (!fits_into_memory(bytes))
@@ -45,7 +46,7 @@ void require_memory(const std::filesystem::path& file, std::size_t full) {
                      " are available; crop it or use fewer points");
 }
 
-/// What stands at a place of a line, short and printable, up to one of `stops`.
+/// A short printable piece of a line for messages. It ends before one of the characters `stops`.
 std::string excerpt(const char* at, const char* end, std::string_view stops = "") {
   std::string text;
   for (; at != end && text.size() < 16 && stops.find(*at) == stops.npos; ++at)
@@ -53,7 +54,7 @@ std::string excerpt(const char* at, const char* end, std::string_view stops = ""
   return text;
 }
 
-/// The end of the exponent of Fortran, "D-03", at a place; null where there is none.
+/// The end of a Fortran exponent such as "D-03" that begins at `at`; nullptr if there is none.
 const char* fortran_exponent(const char* at, const char* end) {
   if (at == end || (*at != 'D' && *at != 'd')) return nullptr;
   if (++at != end && (*at == '+' || *at == '-')) ++at;
@@ -62,8 +63,8 @@ const char* fortran_exponent(const char* at, const char* end) {
   return at == digits ? nullptr : at;
 }
 
-/// from_chars that also takes a plus sign, numbers below the least double and exponents of Fortran;
-/// null if there is no number.
+/// Parses a number as std::from_chars() does, but also accepts a plus sign, numbers below the
+/// smallest double and Fortran exponents. Returns the end of the number; nullptr if there is none.
 const char* parse_number(const char* at, const char* end, double& value) {
   if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
   const auto [stop, status] = std::from_chars(at, end, value);
@@ -81,7 +82,7 @@ const char* parse_number(const char* at, const char* end, double& value) {
   return stop;
 }
 
-/// parse_number of a number with a decimal comma.
+/// Parses a number with a decimal comma, otherwise as parse_number().
 const char* parse_comma_number(const char* at, const char* end, double& value) {
   std::array<char, 64> buffer;
   std::size_t length = 0;
@@ -94,14 +95,16 @@ const char* parse_comma_number(const char* at, const char* end, double& value) {
   return stop ? at + (stop - buffer.data()) : nullptr;
 }
 
-/// Whether one of two symbols is there, by two fast searches in place of one at each character.
+/// Whether the line contains a or b. Two searches for one symbol each are faster than one search
+/// for both.
 bool has_one_of(std::string_view line, char a, char b) {
   return line.find(a) != line.npos || line.find(b) != line.npos;
 }
 
 bool is_separator(char symbol) { return is_blank(symbol) || symbol == ',' || symbol == ';'; }
 
-/// The end of a mark of an undefined point, as instruments write them; null if there is none.
+/// The end of a mark, such as "***", by which an instrument marks an undefined point; nullptr if
+/// there is none at `at`.
 const char* parse_mark(const char* at, const char* end) {
   const auto closed = [&](const char* stop) { return stop == end || is_separator(*stop); };
   for (const char symbol : {'*', '-'}) {
@@ -109,7 +112,7 @@ const char* parse_mark(const char* at, const char* end) {
     while (stop != end && *stop == symbol) ++stop;
     if (stop - at >= 2 && closed(stop)) return stop;
   }
-  // NaN as Microsoft's library prints it; infinity is refused as what it is.
+  // Microsoft's C library prints NaN in these forms. Its infinity does not mark an undefined point.
   const char* const digits = at != end && *at == '-' ? at + 1 : at;
   for (const std::string_view kind : {"1.#IND", "1.#QNAN", "1.#SNAN", "1.#NAN"})
     if (std::string_view(digits, static_cast<std::size_t>(end - digits)).starts_with(kind)) {
@@ -130,8 +133,9 @@ const char* parse_mark(const char* at, const char* end) {
   return nullptr;
 }
 
-/// Whether the line has several values, all of them numbers or marks and not all of them dashes.
-/// Commas may be decimal: either way they leave numbers.
+/// Whether the line has several values that are all numbers or marks of undefined points, but not
+/// only dashes. Commas count as separators here: if they are decimal, the parts on both sides of
+/// each still look like numbers.
 bool is_row(std::string_view line) {
   const char* at = line.data();
   const char* const end = at + line.size();
@@ -154,13 +158,16 @@ bool is_row(std::string_view line) {
 
 bool is_digit(char symbol) { return symbol >= '0' && symbol <= '9'; }
 
-/// Beside points and commas: apostrophes and blanks, of which some do not break a line.
+/// Thousands separators other than points and commas: apostrophes, blanks, non-breaking spaces.
 constexpr std::string_view other_thousands_marks[]{
     "'", " ", "\xc2\xa0", "\xe2\x80\xaf", "\xe2\x80\x99", "\xa0"};
 
-constexpr char between_quotes = '\x1f';  // the separator of units of ASCII, in no text
+// Stands for the separator between quoted values; it is ASCII's unit separator, which no text
+// contains.
+constexpr char between_quotes = '\x1f';
 
-/// Whether a number has a decimal point, which "-1.#IND" has not.
+/// Whether a number in the line has a decimal point. The point in the mark "-1.#IND" does not
+/// count.
 bool has_point(std::string_view line) {
   auto at = line.find('.');
   while (at != line.npos && at + 1 < line.size() && line[at + 1] == '#')
@@ -168,9 +175,10 @@ bool has_point(std::string_view line) {
   return at != line.npos;
 }
 
-/// The mark of thousands of a number that has one for certain: another mark is decimal, or it
-/// stands twice, or it cannot be decimal. Empty where there is none.
-/// known  a mark of the lines before: three digits behind it suffice
+/// The thousands separator of a number, if it certainly is one: another mark is decimal, or the
+/// separator occurs twice, or it cannot be decimal. Otherwise empty.
+/// known  the thousands separator of earlier lines: if the number has it, three digits after it
+///        suffice
 std::string_view thousands_mark(std::string_view number, std::string_view known) {
   number = trimmed(number);
   if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
@@ -198,8 +206,9 @@ std::string_view thousands_mark(std::string_view number, std::string_view known)
   return certain ? mark : std::string_view();
 }
 
-/// The parts of a line that semicolons or tabs separate. Other lines have none with marks of
-/// thousands but for apostrophes, and these only where blanks separate.
+/// Splits a line at semicolons or tabs, to look for thousands separators. In a line whose values
+/// are separated by blanks only apostrophes can be thousands separators; the result is empty if it
+/// has none.
 std::vector<std::string_view> fields_of(std::string_view line) {
   const char between = line.find(';') != line.npos    ? ';'
                        : line.find('\t') != line.npos ? '\t'
@@ -214,8 +223,8 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
-/// A line whose values are in quotation marks without these. A comma that is decimal within them
-/// makes semicolons of those between them.
+/// Removes the quotation marks around the values of a line. If commas within the quotation marks
+/// are decimal, the commas between the values become semicolons.
 std::string without_quotes(std::string_view line) {
   std::string result;
   bool decimal = false, quoted = false;
@@ -235,7 +244,8 @@ std::string without_quotes(std::string_view line) {
   return result;
 }
 
-/// Whether the first number of a line, or one behind it, has a mark of thousands for certain.
+/// Whether the line begins with a number, and some number in it certainly has a thousands
+/// separator.
 bool has_thousands(std::string_view line) {
   return is_digit(line[line.size() > 1 && line.front() == '-']) &&
          std::ranges::any_of(fields_of(line), [](std::string_view field) {
@@ -259,7 +269,7 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-/// Whether the blank is that of "No Data".
+/// Whether the blank at this index is the blank in "No Data".
 bool within_mark(std::string_view line, std::size_t blank) {
   if (blank < 2) return false;
   const char* mark = parse_mark(line.data() + blank - 2, line.data() + line.size());
@@ -298,11 +308,13 @@ double Lines::share() const {
   return static_cast<double>(index_ - rest_.size()) / static_cast<double>(input_->size());
 }
 
-/// Puts the next piece of the file behind what is left of this one; false at the end of the file.
+/// Appends the next piece of the file to the unread rest of the present piece. Returns false at the
+/// end of the file.
 bool Lines::read_on() {
   if (!input_ || index_ == input_->size()) return false;
   piece_.erase(0, piece_.size() - rest_.size());
-  // As much again as the line has already: it is looked through twice at most.
+  // Reads at least as many bytes as the line already has, so that a long line is searched at most
+  // twice.
   const std::size_t left = piece_.size(), wanted = std::max(piece_size, left);
   const auto count =
       static_cast<std::size_t>(std::min<std::uint64_t>(wanted, input_->size() - index_));
@@ -388,13 +400,13 @@ bool NumberReader::ends_with_separator(std::string_view line) const {
   return between && content_of(line).ends_with(*between);
 }
 
-/// Without blanks at its ends, but with the tabs that separate values.
+/// The line without blanks at its beginning and end; tabs stay if they separate values.
 std::string_view NumberReader::content_of(std::string_view line) const {
   return tabs_ ? without_spaces(line) : trimmed(line);
 }
 
-/// The line without marks of thousands, which then are those of all lines; nothing where it has
-/// none.
+/// The line without thousands separators; nothing if it has none. The separator that is found
+/// applies to all later lines.
 std::optional<std::string> NumberReader::without_thousands(std::string_view line, int number) {
   std::string mark = thousands_;
   bool found = false;
@@ -403,16 +415,16 @@ std::optional<std::string> NumberReader::without_thousands(std::string_view line
     if (const std::string_view own = thousands_mark(field, thousands_); !own.empty()) {
       if (!mark.empty() && own != mark)
         refuse_line(number, "holds '" + excerpt(field.data(), field.data() + field.size()) +
-                                "' beside numbers with another mark of thousands; write the "
-                                "numbers without such marks");
+                                "' together with numbers that use another thousands separator; "
+                                "write the numbers without separators");
       mark = own;
       found = true;
     }
   if (!found) return {};
   if ((mark == "," && style_.decimal_comma) || (mark == "." && has_decimal_point_))
-    refuse_line(number,
-                "has a mark of thousands, '" + mark +
-                    "', which is decimal in lines before; write numbers without such marks");
+    refuse_line(number, "has a thousands separator, '" + mark +
+                            "', which is the decimal mark in earlier lines; write the numbers "
+                            "without thousands separators");
   thousands_ = mark;
   std::string plain;
   for (const std::string_view& field : fields) {
@@ -428,7 +440,7 @@ std::optional<std::string> NumberReader::without_thousands(std::string_view line
   return plain;
 }
 
-/// How one line would be read.
+/// Separator and decimal mark of one line, from this line alone.
 NumberReader::Style NumberReader::style_of(std::string_view line, int number) const {
   const bool semicolon = line.find(';') != std::string_view::npos;
   if (line.find(',') == std::string_view::npos)
@@ -452,10 +464,11 @@ NumberReader::Style NumberReader::style_of(std::string_view line, int number) co
                               excerpt(line.data(), line.data() + line.size()) +
                               "'; write one separator and points");
     if (commas_before_blank > 0 && !semicolon)
-      refuse_line(number, "mixes blanks and commas as separators; write one of them");
+      refuse_line(number, "mixes blanks and commas as separators; use one of them");
     return {semicolon ? Separator::semicolon : Separator::blank, true};
   }
-  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
+  // The line only has commas. They separate values, unless it can also be read with decimal commas
+  // ("1,5" or "1,5e-7,…"), which is refused.
   const bool exponent = line.find_first_of("eE") != std::string_view::npos;
   if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
     refuse_line(number, "can be read with commas as separators or as decimal commas, '" +
@@ -473,7 +486,7 @@ void NumberReader::settle(std::string_view line, int number) {
     if (has_decimal_point_ && found.decimal_comma)
       refuse_line(number, "has decimal commas after decimal points; write points");
     if (has_separator_ && found.separator != style_.separator)
-      refuse_line(number, "separates its values otherwise than the lines before");
+      refuse_line(number, "separates its values differently than earlier lines");
     style_ = found;
     has_separator_ = found.separator != Separator::blank || has_one_of(line, ' ', '\t');
     started_ = true;
@@ -481,7 +494,7 @@ void NumberReader::settle(std::string_view line, int number) {
   has_decimal_point_ = point;
 }
 
-/// The value at a place, and where it ends; null if there is none.
+/// Reads the value that begins at `at`. Returns its end; nullptr if there is no value.
 const char* NumberReader::read(const char* at, const char* end, int number, std::size_t column,
                                double& value) {
   Repeated* const last = column < repeated_.size() ? &repeated_[column] : nullptr;
@@ -551,14 +564,15 @@ void NumberReader::append_plain(std::string_view line, int number, std::vector<d
           append_plain(*plain, number, values);
           return;
         }
-        // A comma or semicolon that is not of the style ends no value, and is refused by its name.
+        // settle() throws for a comma or semicolon that is neither decimal nor a separator in this
+        // line.
         if (settled) settle(trimmed(line), number);
         if (!stop)
           refuse_unknown(file_, "line " + std::to_string(number) + " holds '" +
                                     excerpt(at, end, style_.decimal_comma ? " \t;" : " \t;,") +
-                                    "', which is no number; an undefined point is written nan");
+                                    "', which is not a number; write undefined points as nan");
         refuse_line(number, "holds '" + excerpt(at, end) +
-                                "', which is no number with the separators of the first line");
+                                "', which is not a number with the separators of the first line");
       }
       at = after;
     }

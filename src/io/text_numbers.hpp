@@ -10,35 +10,36 @@
 
 #include "input_file.hpp"
 
-/// Numbers in lines of text, as programs of many countries write them.
+/// Reads numbers from lines of text in the notations of many countries.
 namespace salebra::detail {
 
-/// A text in memory or in a file, of which then only pieces are in memory.
+/// A text in memory, or in a file that is read piece by piece.
 struct Text {
-  std::string_view content = {};     ///< without a byte order mark
-  const InputFile* input = nullptr;  ///< in place of the content
+  std::string_view content = {};     ///< the text without byte order mark, if it is in memory
+  const InputFile* input = nullptr;  ///< the file, if the text is not in memory
 
   bool holds(char symbol) const;
 };
 
-/// Lines of a text with their numbers (from 1); ends with LF, CR LF or, where there is no LF at
-/// all, CR.
+/// The lines of a text and their numbers, from 1 on. A line ends with LF or CR LF; with CR if the
+/// text has no LF at all.
 class Lines {
  public:
   explicit Lines(const Text& text);
   explicit Lines(std::string_view content) : Lines(Text{content}) {}
-  /// False at the end of the text; line is without its end, and lasts until the next call.
-  /// throws   InvalidInput for NUL bytes in a file, and for a line that does not fit into the memory
+  /// Sets `line` to the next line, without its end. It stays valid until the next call. Returns
+  /// false at the end of the text.
+  /// throws   InvalidInput for NUL bytes in a file, and for a line that does not fit into memory
   bool next(std::string_view& line);
   int number() const { return number_; }
-  /// Part of the bytes of the file that the lines so far hold; 1 for a text in memory.
+  /// Fraction of the bytes of the file that the lines so far contain; 1 for a text in memory.
   double share() const;
 
  private:
   bool read_on();
 
   const InputFile* input_;
-  std::uint64_t index_ = 0;  ///< in the file, behind the piece
+  std::uint64_t index_ = 0;  ///< offset in the file of the end of the piece in memory
   std::string piece_;
   std::string_view rest_;
   char end_;
@@ -46,44 +47,48 @@ class Lines {
 };
 
 std::string_view trimmed(std::string_view text);
-/// Without spaces at its ends; tabs stay.
+/// The text without spaces at its beginning and end; tabs stay.
 std::string_view without_spaces(std::string_view text);
 
 /// The content without a byte order mark. Throws InvalidInput for text with NUL bytes.
 std::string_view require_text(const std::filesystem::path& file, std::string_view content);
 
-/// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".
+/// The text in UTF-8. Text that is not UTF-8 is read as Latin-1, in which older programs write "µm"
+/// and "Höhe".
 std::string utf8(std::string_view text);
 
-/// Whether the first value of the line is a number or "nan", or empty or a mark of an undefined
-/// point in a line of nothing but numbers and such marks. A rule of dashes is no line of numbers.
+/// Whether a line contains numbers of the surface: its first value is a number or "nan", or the
+/// first value is empty or marks an undefined point and all other values are numbers or such marks.
+/// A line that only consists of dashes does not count.
 bool starts_with_number(std::string_view line);
 
-/// Values of the lines of one text. How they are separated and written is what the lines so far
-/// have shown: whole numbers leave open whether commas are decimal.
+/// Reads the values in the lines of one text. From the lines read so far it learns how values are
+/// separated and whether commas are decimal; a line of whole numbers may leave both open.
 class NumberReader {
  public:
-  /// tabs   each separates two values, of which one may be empty; else any blanks do
+  /// tabs   true: every tab separates two values, so a value may be empty; false: any number of
+  ///        blanks and tabs separates two values
   explicit NumberReader(std::filesystem::path file, bool tabs = false);
 
-  /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
-  /// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
-  /// "BAD", "No Data", "null", "1.#IND" and the like. Values may be in quotation marks, and have
-  /// the exponents of Fortran, "1.0D-03". Marks of thousands are read where they can be nothing
-  /// else: "1,234.5" between semicolons or tabs, "1'234.5".
-  /// throws   InvalidInput naming the line and what was found in it; where the line can be read in
-  ///          two ways; and where it contradicts the lines before
-  /// Cost: one pass, no allocation but values'.
+  /// Appends the values of a line to `values`. An empty field is NaN; a separator at the end of the
+  /// line adds no value. Marks of undefined points are NaN: "***" and "---" of two characters or
+  /// more, "NA", "N/A", "BAD", "No Data", "null", "1.#IND" and the like. Values may be in quotation
+  /// marks, and may have Fortran exponents such as "1.0D-03". Thousands separators are only
+  /// accepted if they can be nothing else: "1,234.5" between semicolons or tabs, "1'234.5". Cost:
+  /// one pass; only `values` allocates.
+  /// throws   InvalidInput naming the line and the text found in it, also if the line can be
+  ///          read in two ways, or contradicts earlier lines
   void append(std::string_view line, int number, std::vector<double>& values);
 
   /// Whether a line has been read.
   bool started() const { return started_; }
-  /// Between values that may be empty; nothing where blanks separate them.
+  /// The separator, if values between two of it may be empty; nothing if blanks separate the
+  /// values.
   std::optional<char> symbol() const;
-  /// Whether the lines so far have shown which mark is decimal.
+  /// Whether the lines so far contain a number with a decimal point, or with a decimal comma.
   bool has_decimal_points() const { return has_decimal_point_; }
   bool has_decimal_commas() const { return style_.decimal_comma; }
-  /// Whether the line ends with such a separator: a value that is empty, or nothing.
+  /// Whether the line ends with symbol(). The line may then end with an empty value or not.
   bool ends_with_separator(std::string_view line) const;
 
  private:
@@ -92,7 +97,7 @@ class NumberReader {
     Separator separator = Separator::blank;
     bool decimal_comma = false;
   };
-  /// A value with its text.
+  /// A value and the text from which it was parsed.
   struct Repeated {
     std::array<char, 24> text;
     std::size_t size = 0;
@@ -111,9 +116,12 @@ class NumberReader {
   bool tabs_;
   bool started_ = false;
   Style style_;
-  std::string thousands_;  ///< the mark between them, where a line has shown one
-  bool has_separator_ = false, has_decimal_point_ = false;  ///< in a line so far
-  /// Points of a grid repeat one of their coordinates from line to line.
+  /// The thousands separator; empty if no line so far has certainly shown one.
+  std::string thousands_;
+  /// Whether some line so far has a separator, a decimal point.
+  bool has_separator_ = false, has_decimal_point_ = false;
+  /// The last values of the first two columns. In a list of the points of a grid, one coordinate is
+  /// the same in many lines, and is not parsed again.
   std::array<Repeated, 2> repeated_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of numbers of a text, and the lines beside them.
+// Reads the rows of numbers of a text, and the other lines before, between and after them.
 #include "text_rows.hpp"
 
 #include <algorithm>
@@ -14,10 +14,11 @@ namespace salebra::detail {
 namespace {
 
 constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
-constexpr Index enough_rows = 1024;  // to say how long all are
+// Number of rows from which the memory for all rows is estimated.
+constexpr Index enough_rows = 1024;
 
-/// For all values, of which there is a share: a vector that grows copies them, each time into
-/// pages that the system has to clear.
+/// Reserves memory for the values of the whole text, if the fraction `share` of the text has been
+/// read. A vector that grows step by step would copy its values each time.
 void reserve_rows(TextRows& matrix, double share) {
   constexpr double longer = 1.02;
   const double wanted = longer * static_cast<double>(matrix.values.size()) / share;
@@ -25,7 +26,8 @@ void reserve_rows(TextRows& matrix, double share) {
     matrix.values.reserve(static_cast<std::size_t>(wanted));
 }
 
-/// One to the rows but for the last, which has it already and is not counted yet.
+/// Adds a column with an undefined value to all rows but the last, which already has the value and
+/// is not counted yet.
 void append_undefined_column(TextRows& matrix) {
   std::vector<double>& values = matrix.values;
   const Index columns = matrix.columns, rows = matrix.rows;
@@ -44,7 +46,7 @@ void append_undefined_column(TextRows& matrix) {
   matrix.columns = wider;
 }
 
-/// Whether tabs separate values that have blanks within them, as "1 234" has.
+/// Whether values between tabs contain blanks, such as "1 234".
 bool has_blanks_between_tabs(std::string_view row) {
   if (row.find('\t') == row.npos) return false;
   for (auto at = row.find(' '); at != row.npos; at = row.find(' ', at + 1)) {
@@ -55,8 +57,9 @@ bool has_blanks_between_tabs(std::string_view row) {
   return false;
 }
 
-/// Whether every value may be a whole number whose thousands have a mark: fewer than four digits
-/// before the mark, three behind it, and some have none.
+/// Whether the numbers may be whole numbers whose supposed decimal mark is a thousands separator:
+/// each has at most three digits before the mark and three after it. Some numbers must have the
+/// mark, and some not.
 bool look_like_thousands(const TextRows& matrix) {
   if (!matrix.decimal_points && !matrix.decimal_commas) return false;
   bool whole = false, marked = false;
@@ -76,7 +79,8 @@ bool look_like_thousands(const TextRows& matrix) {
   return whole && marked;
 }
 
-/// The same of the text: "5.000" has a mark, and "5" has none.
+/// Answers the same question as look_like_thousands() from the text itself, in which "5.000" has a
+/// mark and "5" has none.
 bool are_thousands(const Text& text, char mark) {
   bool whole = false, marked = false;
   Lines lines(text);
@@ -106,7 +110,7 @@ bool are_thousands(const Text& text, char mark) {
   return whole && marked;
 }
 
-/// Lines between the rows, which may begin another matrix.
+/// Collects the lines between the rows, after which another matrix may begin.
 class Interruptions {
  public:
   void line(const TextRows& matrix, int number, std::string_view content) {
@@ -116,23 +120,24 @@ class Interruptions {
       comment_ =
           "line " + std::to_string(number) + ", '" + std::string(content.substr(0, 60)) + "'";
   }
-  /// rows  before the one that comes now
+  /// Must be called before each row is added to the matrix.
   void row(TextRows& matrix) {
     if (!comment_.empty() && matrix.interruption.empty()) matrix.interruption = comment_;
     if (empty_ && block_ == 0) block_ = matrix.rows;
     if (empty_) regular_ = regular_ && matrix.rows % block_ == 0;
     empty_ = false;
   }
-  /// An empty line behind each row separates nothing.
+  /// Must be called after the last row. Empty lines are taken to separate blocks of rows, unless an
+  /// empty line follows every single row.
   void end(TextRows& matrix) const {
     if (matrix.interruption.empty() && block_ > 1 && regular_ && matrix.rows % block_ == 0)
-      matrix.interruption = "the empty line behind row " + std::to_string(block_);
+      matrix.interruption = "the empty line after row " + std::to_string(block_);
   }
 
  private:
   std::string comment_;
   bool empty_ = false, regular_ = true;
-  Index block_ = 0;  ///< rows before the first empty line
+  Index block_ = 0;  ///< number of rows before the first empty line
 };
 
 TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tabs) {
@@ -142,7 +147,7 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
   Lines lines(text);
   std::vector<HeaderLine> first_rows;
   Interruptions interruptions;
-  // Lines of a header are kept. A text of more of them is none.
+  // No header has more lines than this.
   constexpr std::size_t max_lines = 5000;
   for (std::string_view line; lines.next(line);) {
     const std::string_view content = trimmed(line);
@@ -167,8 +172,8 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
       matrix.columns = columns;
       all_open = open;
     }
-    // A separator behind the last value of every row says nothing. Where other rows end without
-    // one, it stands before a point that is undefined.
+    // A separator after the last value of every row has no meaning. If some rows end without it,
+    // the others have an undefined value after it.
     if (all_open && !open && columns == matrix.columns + 1) {
       append_undefined_column(matrix);
     } else if (!all_open && open && columns == matrix.columns - 1) {
@@ -177,9 +182,10 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
     }
     all_open = all_open && open;
     if (columns != matrix.columns) {
-      // Where tabs separate values, blanks hide those that are empty.
+      // If tabs separate the values, empty values were lost, since blanks and tabs were taken for
+      // one separator. Reads the text again with a value between any two tabs.
       if (!tabs && !reader.symbol() && text.holds('\t')) return read_rows(file, text, true);
-      // Counts before the numbers.
+      // The short rows so far may state numbers of columns and rows that precede the matrix.
       constexpr Index max_counts = 3;
       if (matrix.rows <= max_counts && matrix.columns <= max_counts && columns > matrix.columns &&
           matrix.leading.empty() && static_cast<Index>(first_rows.size()) == matrix.rows) {
@@ -194,23 +200,23 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
       refuse_unknown(file, "line " + std::to_string(lines.number()) + " holds " +
                                std::to_string(columns) + " values where the first row holds " +
                                std::to_string(matrix.columns) +
-                               "; the file is truncated or no matrix");
+                               "; the file is truncated or not a matrix");
     }
     if (matrix.rows < 4)
       first_rows.push_back({lines.number(), std::string(content.substr(0, 100))});
     ++matrix.rows;
-    if (matrix.rows == enough_rows) reserve_rows(matrix, lines.partition());
+    if (matrix.rows == enough_rows) reserve_rows(matrix, lines.share());
   }
   if (matrix.rows == 0)
-    refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");
+    refuse_unknown(file, "holds no numbers and is not in a known format; name a surface file");
   interruptions.end(matrix);
   matrix.decimal_commas = reader.has_decimal_commas();
   matrix.decimal_points = reader.has_decimal_points();
   matrix.comma_separates = reader.symbol() == ',';
   if (look_like_thousands(matrix) && are_thousands(text, matrix.decimal_commas ? ',' : '.'))
     refuse(file, std::string("has a '") + (matrix.decimal_commas ? ',' : '.') +
-                     "' with three digits behind it in every number that has one, which may be a "
-                     "mark of thousands; write the numbers without such marks");
+                     "' followed by three digits in every number that has one, which may be a "
+                     "thousands separator; write the numbers without it");
   return matrix;
 }
 

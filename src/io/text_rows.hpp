@@ -11,13 +11,14 @@
 
 namespace salebra::detail {
 
-/// The numbers of a text, and the lines beside them.
+/// The numbers of a text, and the lines around them.
 struct TextRows {
-  std::vector<double> values;  ///< row after row
+  std::vector<double> values;  ///< all values, one row after the other
   Index columns = 0, rows = 0;
-  std::vector<HeaderLine> lines;    ///< without numbers
-  std::vector<HeaderLine> leading;  ///< numbers before the rows, of another length than these
-  std::string interruption;  ///< of the rows, by a line without numbers; empty where there is none
+  std::vector<HeaderLine> lines;    ///< lines without numbers
+  std::vector<HeaderLine> leading;  ///< lines with fewer numbers than the rows, before the rows
+  /// Names a line between the rows, after which another matrix may begin; empty if there is none.
+  std::string interruption;
   bool decimal_points = false, decimal_commas = false, comma_separates = false;
 
   double operator()(Index row, Index column) const {
@@ -27,8 +28,8 @@ struct TextRows {
   void remove_column(Index column);
 };
 
-/// Throws InvalidInput where rows differ in length or hold something else than numbers, and where
-/// their marks may be those of thousands.
+/// Reads the rows of a text. Throws InvalidInput if rows differ in length or contain anything but
+/// numbers, and if a decimal mark may be a thousands separator.
 TextRows read_rows(const std::filesystem::path& file, const Text& text);
 
 }  // namespace salebra::detail

@@ -22,8 +22,9 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-/// x along the rows. By blocks: where a row is a power of two long, the numbers of a column share
-/// few lines of the cache.
+/// The heights of a matrix with x along the rows of the text. Transposes in blocks: if the length
+/// of a row is a power of two, the numbers of a column would share only few lines of the
+/// processor's cache.
 Field transposed(const TextRows& matrix) {
   const Eigen::Map<const Field> rows(matrix.values.data(), matrix.rows, matrix.columns);
   Field heights(matrix.columns, matrix.rows);
@@ -45,8 +46,8 @@ std::vector<double> column_of(const TextRows& rows, Index column) {
   return values;
 }
 
-/// Declared marks of undefined points become NaN; so do values that instruments use as marks, where
-/// they stand apart from all others by more than these span.
+/// Replaces marks of undefined points by NaN: values that the header declares as marks, and values
+/// that instruments use as marks and that lie farther from all other heights than these lie apart.
 void remove_marks(const std::filesystem::path& file, const TextHeader& header,
                   LoadedSurface& surface) {
   const std::span<double> heights(surface.heights.data(),
@@ -62,8 +63,8 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
   };
   for (const double mark : header.missing)
     if (const Index count = remove(mark); mark == 0 && count > 0)
-      surface.warnings.push_back(
-          fmt::format("{} heights of 0, which the file names as its mark, are undefined", count));
+      surface.warnings.push_back(fmt::format(
+          "{} heights of 0, which the file uses to mark undefined points, are undefined", count));
   for (;;) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double height : heights) {
@@ -91,24 +92,23 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
         ++others;
       }
     const double gap = mark == least ? low - mark : mark - high;
-    // A whole number among heights with fractions needs to be less far from these.
+    // Among heights with fractions, a whole number is a mark already at a quarter of this distance.
     const bool apart = gap > (mark == std::floor(mark) && fractions ? 0.25 : 1) * (high - low);
     if (!apart || others < 3) {
       if (gap > 0.25 * (high - low) && std::abs(mark) < 1e9)
-        refuse(file,
-               fmt::format("holds heights of '{}', which may mark undefined points; write nan "
-                           "for these, or correct them",
-                           mark));
+        refuse(file, fmt::format("holds heights of '{}', which may mark undefined points; write "
+                                 "nan for them, or correct them",
+                                 mark));
       return;
     }
     const Index count = remove(mark);
     surface.warnings.push_back(
-        fmt::format("{} of {}, far from all other heights, taken for undefined",
+        fmt::format("{} of {}, far from all other heights, treated as undefined",
                     count == 1 ? "a height" : fmt::format("{} heights", count), mark));
   }
 }
 
-/// In the unit of its axis, where it has none of its own.
+/// A stated length in metres. If it has no unit of its own, it is in `unit`, the unit of its axis.
 std::optional<double> metres_of(const std::filesystem::path& file, const StatedLength& length,
                                 const std::string& unit) {
   if (length.metres) return length.metres;
@@ -116,7 +116,7 @@ std::optional<double> metres_of(const std::filesystem::path& file, const StatedL
   return length.number * metres_per(file, unit);
 }
 
-/// What a text says of one axis.
+/// The lengths that a text states for one axis of the surface.
 struct Axis {
   const char* name;
   Index points;
@@ -124,8 +124,9 @@ struct Axis {
   std::string unit;
 };
 
-/// The size along an axis of a matrix. A size may be that from the first to the last point. open:
-/// set where it is in no unit.
+/// The size along an axis of a matrix, from the stated size and the stated distance of points. The
+/// stated size may also be the distance from the first to the last point. Adds a question to
+/// `loaded` if no unit is stated.
 std::optional<double> size_of(const std::filesystem::path& file, const Axis& axis,
                               LoadedSurface& loaded) {
   const auto in_metres = [&](const std::optional<StatedLength>& length) -> std::optional<double> {
@@ -133,7 +134,7 @@ std::optional<double> size_of(const std::filesystem::path& file, const Axis& axi
     if (const auto metres = metres_of(file, *length, axis.unit)) return metres;
     loaded.lateral_unit_open = true;
     loaded.questions.push_back(
-        {length->quote + ", states no unit; give `lateral_unit`", true, false});
+        {length->quote + ", does not state a unit; give `lateral_unit`", true, false});
     return length->number;
   };
   const std::optional<double> size = in_metres(axis.size), pixel = in_metres(axis.pixel);
@@ -161,8 +162,9 @@ std::optional<double> size_of(const std::filesystem::path& file, const Axis& axi
                                axis.name));
 }
 
-/// Size and step of coordinates or positions against what the header states; the metres in one unit
-/// of the coordinates where only the header shows them.
+/// Compares the size and the step of coordinates with those that the header states, and throws if
+/// they differ. If only the header shows the unit of the coordinates, converts `size` to metres and
+/// sets `closed`. open: the unit of the coordinates is not known.
 void check_size(const std::filesystem::path& file, const Axis& axis, bool open, double& size,
                 bool& closed) {
   const auto count = static_cast<double>(axis.points);
@@ -206,7 +208,7 @@ class TextReader {
     remove_count();
     const std::optional<Columns> columns = columns_of(file_, rows_, header_);
     constexpr const char* not_understood =
-        ", has a unit or a number that is not understood; remove the line, or give the sizes and "
+        ", has a unit or a number that is not known; remove the line, or give the lengths and "
         "`height_unit`";
     try {
       if (columns)
@@ -214,7 +216,8 @@ class TextReader {
       else
         read_untitled(margins);
     } catch (const InvalidInput&) {
-      // A line that is not understood may have said what the numbers are.
+      // A line of the header that was not understood may explain the numbers, so the error names
+      // it.
       if (header_.unaccounted.empty()) throw;
       refuse_unknown(file_, header_.unaccounted.front() + not_understood);
     }
@@ -234,7 +237,7 @@ class TextReader {
     return !of_title.empty() ? of_title : !of_axis.empty() ? of_axis : header_.common_unit;
   }
 
-  /// A number of lines before the numbers of a single column is no height.
+  /// Removes the first number of a single column if it is the number of values after it.
   void remove_count() {
     constexpr Index least = 5;
     if (rows_.columns != 1 || rows_.rows < least) return;
@@ -246,21 +249,21 @@ class TextReader {
     if (first == behind) {
       if (!apart)
         refuse(file_, "begins with the number of its lines, which may be a height; remove it");
-      loaded_.warnings.emplace_back("its first line counts those behind it and is no height");
+      loaded_.warnings.emplace_back(
+          "its first line is the number of lines that follow, not a height");
       rows_.remove_first_row();
     } else if ((first >= 2 && second == std::floor(second) && first * second == behind - 1) ||
                (apart && first > 4 &&
                 (first == behind - 1 || first == behind - 2 || first == behind + 1))) {
-      refuse(
-          file_,
-          fmt::format(
-              "begins with {}, which seems to count the lines behind it; remove what is no height",
-              first));
+      refuse(file_, fmt::format("begins with {}, which seems to count the lines that follow; "
+                                "remove it if it is not a height",
+                                first));
     }
   }
 
   void read_columns(const Columns& columns) {
-    loaded_.warnings.insert(loaded_.warnings.end(), columns.warnings.begin(), columns.warnings.end());
+    loaded_.warnings.insert(loaded_.warnings.end(), columns.warnings.begin(),
+                            columns.warnings.end());
     z_unit_ = columns.z_unit;
     if (!columns.x) {
       read_heights(column_of(rows_, *columns.z));
@@ -310,11 +313,11 @@ class TextReader {
     if (margins.row) rows_.remove_first_row();
     if (margins.column) rows_.remove_column(0);
     if ((margins.row || margins.column) && !margins.step_x)
-      loaded_.warnings.emplace_back(
-          fmt::format("its first {} counts and holds no heights", !margins.column ? "row"
-                                                                  : margins.row   ? "row and column"
-                                                                                  : "column"));
-    // x, y, z and more of each point.
+      loaded_.warnings.emplace_back(fmt::format("its first {} is a count and holds no heights",
+                                                !margins.column ? "row"
+                                                : margins.row   ? "row and column"
+                                                                : "column"));
+    // The columns may be x, y, z and further quantities of each point.
     constexpr Index max_columns = 8;
     if (rows_.columns >= 3 && rows_.columns <= max_columns && rows_.rows >= 4 &&
         !(rows_.columns == 3 && !margins.column)) {
@@ -324,23 +327,23 @@ class TextReader {
       if (auto grid = points_of(xyz)) {
         if (rows_.columns > 3)
           loaded_.warnings.emplace_back(fmt::format(
-              "columns x, y and z were read; {} behind them were not used", rows_.columns - 3));
+              "columns x, y and z were read; {} after them were not used", rows_.columns - 3));
         read_points(std::move(*grid), x_unit, y_unit);
         return;
       }
       if (rows_.columns == 3 && !sized)
-        refuse(file_, "has numbered lines whose columns are not understood; name them");
+        refuse(file_, "has numbered lines whose columns are not known; name them");
     }
     if (margins.column && rows_.columns == 2) {
       if (!is_monotone(rows_, 0))
-        refuse(file_, "has numbered lines whose columns are not understood; name them");
+        refuse(file_, "has numbered lines whose columns are not known; name them");
       read_profile(column_of(rows_, 0), column_of(rows_, 1), x_unit);
       return;
     }
     read_matrix(margins, x_unit, y_unit);
   }
 
-  /// The grid of points that fill one; nothing for other numbers.
+  /// The surface on the grid of these points. Nothing if the points do not lie on a regular grid.
   std::optional<LoadedSurface> points_of(const std::vector<double>& xyz) const {
     try {
       LoadedSurface grid = grid_of_points(file_, xyz);
@@ -350,11 +353,11 @@ class TextReader {
     return {};
   }
 
-  /// Checks a matrix or a list of heights, in which nothing else separates blocks of rows.
+  /// Throws InvalidInput for a matrix or a list of heights if a line separates blocks of rows.
   void require_one_block() const {
     if (!rows_.interruption.empty())
       refuse(file_, rows_.interruption +
-                        ", stands between rows, which may be of two channels; keep one of them");
+                        ", lies between rows, which may belong to two channels; keep one of them");
   }
 
   void read_matrix(const Margins& margins, const std::string& x_unit, const std::string& y_unit) {
@@ -370,7 +373,7 @@ class TextReader {
       return;
     }
     if (header_.length && !header_.width)
-      question(header_.length->quote + ", is a length of no axis");
+      question(header_.length->quote + ", is a length without an axis");
     loaded_.size_x = size_of(file_, x, loaded_);
     loaded_.size_y = size_of(file_, y, loaded_);
   }
@@ -382,7 +385,7 @@ class TextReader {
     if (!open_y) size_y *= metres_per(file_, y.unit);
     check_size(file_, x, open_x, size_x, closed_x);
     check_size(file_, y, open_y, size_y, closed_y);
-    if (closed_x != closed_y) refuse(file_, "states the unit of one of x and y only; state both");
+    if (closed_x != closed_y) refuse(file_, "states the unit of only one of x and y; state both");
     loaded_.size_x = size_x;
     loaded_.size_y = size_y;
     loaded_.lateral_unit_open = !closed_x;
@@ -394,11 +397,11 @@ class TextReader {
     const bool of_heights =
         header_.height_factor || !unit_or_common(z_unit_, header_.value_unit).empty();
     if (lateral && !of_heights)
-      loaded_.questions.push_back({"states the unit of its positions and none of its heights" +
+      loaded_.questions.push_back({"states the unit of its positions but not of its heights" +
                                        titles + "; give `height_unit`",
                                    false, true});
     if (!lateral && of_heights && !header_.height_factor)
-      loaded_.questions.push_back({"states the unit of its heights and none of its positions" +
+      loaded_.questions.push_back({"states the unit of its heights but not of its positions" +
                                        titles + "; give `lateral_unit`",
                                    true, false});
   }
@@ -419,7 +422,7 @@ class TextReader {
     loaded_.is_profile = true;
     loaded_.heights = Eigen::Map<const Field>(heights.data(), rows_.rows, 1);
     if (header_.width && header_.length)
-      question(header_.length->quote + ", is stated beside a size");
+      question(header_.length->quote + ", is stated together with a size");
     loaded_.size_x = size_of(file_,
                              {"x", rows_.rows, header_.width ? header_.width : header_.length,
                               header_.pixel_x, unit_or_common("", header_.x_unit)},
@@ -436,7 +439,8 @@ class TextReader {
       std::ranges::reverse(heights);
     }
     LoadedSurface profile = profile_of(file_, positions, heights);
-    profile.warnings.insert(profile.warnings.begin(), loaded_.warnings.begin(), loaded_.warnings.end());
+    profile.warnings.insert(profile.warnings.begin(), loaded_.warnings.begin(),
+                            loaded_.warnings.end());
     profile.questions = std::move(loaded_.questions);
     loaded_ = std::move(profile);
     double size = *loaded_.size_x;
@@ -471,7 +475,8 @@ class TextReader {
     check(header_.points, "points", points, columns == rows, columns);
   }
 
-  /// Numbers before the rows count columns, rows or points.
+  /// Throws InvalidInput unless the numbers before the rows are the numbers of columns, rows or
+  /// points.
   void check_leading() {
     for (const HeaderLine& line : rows_.leading) {
       std::vector<double> counts;
@@ -490,8 +495,8 @@ class TextReader {
                                    (is(counts[1], {nx, columns}) && is(counts[0], {ny, rows}))
                              : false;
       if (!known)
-        refuse_unknown(file_, fmt::format("line {} holds {} values where the rows hold {}; the "
-                                          "file is truncated or no matrix",
+        refuse_unknown(file_, fmt::format("line {} holds {} values but the rows hold {}; the file "
+                                          "is truncated or not a matrix",
                                           line.number, counts.size(), rows_.columns));
     }
   }

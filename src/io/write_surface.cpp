@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing of a surface: format by extension, and the writers of HDF5, NPY and text.
+// Writer of surfaces: finds the format by the extension; with the writers of HDF5, NPY and text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ void write_hdf5(const std::filesystem::path& file, const Surface& surface,
 void write_npy(const std::filesystem::path& file, const Surface& surface,
                const Provenance& provenance, const WriteOptions& options) {
   static_assert(std::endian::native == std::endian::little);
-  // The data begin at a multiple of 64 bytes, as numpy.save has it.
+  // The heights begin at a multiple of 64 bytes, as numpy.save() writes them.
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
                   surface.grid.nx, surface.grid.ny);
@@ -70,13 +70,14 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   sidecar.write(description.dump(2) + "\n");
   array.finish();
   sidecar.finish();
-  // The new sidecar refuses the old array by its checksum; an old one may have none, and would
-  // accept the new array.
+  // Renames the sidecar first. If the program ends before the array is renamed, the checksum of the
+  // new sidecar does not fit the old array. In the reverse order an old sidecar without checksum
+  // would seem to fit the new array.
   std::error_code ignored;
   const bool alone = !std::filesystem::exists(sidecar.target(), ignored);
-  sidecar.index();
+  sidecar.rename_to_target();
   try {
-    array.index();
+    array.rename_to_target();
   } catch (const IoError&) {
     if (alone && !array.placed()) std::filesystem::remove(sidecar.target(), ignored);
     throw;
@@ -137,9 +138,10 @@ const detail::SurfaceFormatEntry& written_format(const std::filesystem::path& fi
     const auto& extensions = format.facts.extensions;
     if (format.write && std::ranges::find(extensions, extension) != extensions.end()) return format;
   }
-  throw InvalidInput(file.string(), "has the extension '" + extension +
-                                        "', which names no format that is written; use one of " +
-                                        written_extensions());
+  throw InvalidInput(file.string(),
+                     "has the extension '" + extension +
+                         "', which is not a format that salebra writes; use one of " +
+                         written_extensions());
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 namespace salebra::detail {
 namespace {
 
-/// Bytes of a member that an archive of so many may hold. Deflate packs zeros a thousand times,
-/// heights of a measurement hardly four times; integers of two bytes become doubles.
+/// The largest member that is accepted in an archive of this size, bytes. Deflate compresses zeros
+/// a thousandfold, but measured heights hardly fourfold; the factor 8 also allows for integers of
+/// two bytes that become doubles.
 std::uint64_t max_bytes(std::uint64_t archive_size) {
   return (std::uint64_t{32} << 20) + 8 * archive_size;
 }
@@ -51,11 +52,11 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
     refuse(file, "does not state the size of its member " + name + "; it is damaged");
   if (bytes && about.size != *bytes)
     refuse(file, "holds " + std::to_string(about.size) + " bytes in its member " + name +
-                     " where its main.xml asks for " + std::to_string(*bytes) +
+                     " but its main.xml states " + std::to_string(*bytes) +
                      "; it is truncated or damaged");
   if (about.size > (bytes ? *bytes : max_xml_size) || about.size > max_bytes(archive_size))
     refuse(file, "declares " + std::to_string(about.size) + " bytes for its member " + name +
-                     ", more than it can hold; it is damaged or made to fill the memory");
+                     ", more than it can hold; it is damaged or malicious");
   const std::unique_ptr<zip_file_t, CloseMember> stream(zip_fopen_index(archive, number, 0));
   if (!stream)
     refuse(file, "has a member " + name + " that cannot be unpacked (" + zip_strerror(archive) +
@@ -67,15 +68,15 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
     if (got <= 0) break;
     filled += static_cast<std::uint64_t>(got);
   }
-  // The checksum of the member is compared where its end is read.
+  // Reads beyond the end of the member, because libzip compares the checksum only there.
   char beyond;
   if (filled < about.size || zip_fread(stream.get(), &beyond, 1) != 0)
     refuse(file, "has a damaged member " + name + "; copy or save it again");
   return content;
 }
 
-/// The folder of main.xml within the archive, with its slash: whoever packs a folder by hand has it
-/// in front of all names.
+/// The folder of main.xml within the archive, with a slash at its end. If a user packs a folder by
+/// hand, the names of all members begin with this folder.
 std::string folder_of(const std::filesystem::path& file, zip_t* archive) {
   constexpr std::string_view end = "/main.xml";
   if (zip_name_locate(archive, "main.xml", 0) >= 0) return "";

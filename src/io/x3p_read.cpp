@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface from the main.xml and the binary members of an X3P file.
+// Reads a surface from main.xml and the binary members of an X3P file.
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -26,19 +26,20 @@ std::string_view text_of(const pugi::xml_node& node) {
   return text;
 }
 
-/// main.xml with what all its uses need: the file for messages, and entries by their path below the
-/// root.
+/// main.xml: gives access to its entries by their paths below the root, and names the file in
+/// messages.
 class Description {
  public:
   Description(const std::filesystem::path& file, const std::string& xml) : file_(file) {
     const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
     if (!result)
-      refuse(file, std::string("has a main.xml that is no XML (") + result.description() +
+      refuse(file, std::string("has a main.xml that is not XML (") + result.description() +
                        "); it is damaged");
     root_ = document_.document_element();
     if (!std::string_view(root_.name()).ends_with("ISO5436_2"))
-      refuse_unknown(file,
-                     "has a main.xml that describes no surface of ISO 25178-72; name an X3P file");
+      refuse_unknown(
+          file,
+          "has a main.xml that does not describe a surface of ISO 25178-72; name an X3P file");
   }
 
   bool has(const char* path) const { return !root_.first_element_by_path(path).empty(); }
@@ -65,7 +66,8 @@ class Description {
     if (value < 1) wrong(path);
     return value;
   }
-  /// Refuses entries and attributes below `path` that are not `known`: a unit, for example.
+  /// Throws InvalidInput for entries and attributes below `path` that are not in `known`, such as a
+  /// unit, since the reader would ignore them.
   void require_nothing_but(const char* path, std::initializer_list<std::string_view> known) const {
     for (const pugi::xml_node& entry : root_.first_element_by_path(path).children()) {
       if (entry.type() != pugi::node_element) continue;
@@ -74,13 +76,13 @@ class Description {
       if (!is_known || entry.first_attribute())
         refuse(file_, std::string("has ") + (*path ? std::string(path) + "/" : "") + name +
                           (is_known ? std::string("/@") + entry.first_attribute().name() : "") +
-                          " in its main.xml, which is not used; remove it if it says nothing about "
-                          "the heights");
+                          " in its main.xml, which salebra does not apply; remove it if it does "
+                          "not affect the heights");
     }
   }
   [[noreturn]] void wrong(const char* path) const {
     refuse(file_, std::string("has ") + path + " = '" + std::string(words(path).substr(0, 24)) +
-                      "' in its main.xml, which cannot be; correct it");
+                      "' in its main.xml, which is impossible; correct it");
   }
 
  private:
@@ -125,9 +127,10 @@ void require_height_map(const std::filesystem::path& file, const Description& de
     refuse(file, "holds several layers; save one of them");
   if (!description.has("Record3/DataLink"))
     refuse(file, "holds its heights within main.xml; save it with a binary data file");
-  // A turn within the plane leaves heights over the file's own axes as they are.
+  // A rotation within the plane of the surface is accepted: it does not change the heights over the
+  // axes of the file.
   if (std::abs(description.number("Record1/Axes/Rotation/r33", 1) - 1) > 1e-6)
-    refuse(file, "is turned out of its plane; level it before saving");
+    refuse(file, "is rotated out of its plane; level it before saving");
 }
 
 }  // namespace
@@ -163,15 +166,15 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   surface.size_y = std::abs(step_y) * static_cast<double>(ny);
   surface.heights = heights_of(file, nx, ny);
   Index infinite = 0;
-  // Points may be listed against the direction of an axis; x and y grow with ix and iy all the
-  // same.
+  // If the increment of an axis is negative, the file lists points against its direction. x and y
+  // of the surface must grow with the indices ix and iy.
   for (Index row = 0; row < ny; ++row) {
     const Index iy = step_y > 0 ? row : ny - 1 - row;
     for (Index column = 0; column < nx; ++column) {
       const Index ix = step_x > 0 ? column : nx - 1 - column;
       const auto index = static_cast<std::size_t>(row * nx + column);
       const double stored = type.read(data->data() + type.bytes() * index, std::endian::little);
-      // Some programs mark points without a height as infinite.
+      // Some programs write infinity for an undefined point.
       infinite += std::isinf(stored);
       surface.heights(ix, iy) = std::isinf(stored) ? std::numeric_limits<double>::quiet_NaN()
                                                    : stored * step_z + offset_z;
@@ -179,8 +182,8 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   }
   if (infinite > 0)
     surface.warnings.push_back("has " + std::to_string(infinite) +
-                              (infinite == 1 ? " infinite height, which counts as undefined"
-                                             : " infinite heights, which count as undefined"));
+                               (infinite == 1 ? " infinite height, treated as undefined"
+                                              : " infinite heights, treated as undefined"));
   if (const std::string mask_name(description.words("Record3/DataLink/ValidPointsLink"));
       !mask_name.empty()) {
     const auto valid = member(mask_name, (points + 7) / 8);

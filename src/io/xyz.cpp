@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Regular grid from points (x, y, z), and writer of such points.
+// Finds the regular grid on which points (x, y, z) lie, and writes a surface as such points.
 #include "xyz.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct XyzAxis {
   Index points = 0;
 };
 
-/// Whether every value lies a whole number of steps from the first.
-/// Coordinates are written with few digits: they may lie up to a tenth of a step from the grid.
+/// Whether every value differs from the first by a whole number of steps. Since coordinates are
+/// rounded to few digits, a deviation of a tenth of a step is allowed.
 bool on_grid(const std::vector<double>& sorted, double step) {
   return std::ranges::all_of(sorted, [&](double value) {
     const double index = (value - sorted.front()) / step;
@@ -30,12 +30,13 @@ bool on_grid(const std::vector<double>& sorted, double step) {
   });
 }
 
-/// The different ones of every third number from `first` on, rising. Points of a grid come in
-/// order: a coordinate is mostly the one before, or follows it as it did before.
+/// The distinct values of one coordinate, in increasing order. It is every third number of `xyz`
+/// from index `first` on. The search is fast for points listed in the order of a grid, where a
+/// coordinate usually equals that of the point before, or the next larger value already known.
 std::vector<double> different(const std::filesystem::path& file, const std::vector<double>& xyz,
                               std::size_t first) {
   constexpr std::size_t min_batch = 65536;
-  std::vector<double> values;  // rising up to `sorted`
+  std::vector<double> values;  // increasing up to the index `sorted`
   std::size_t sorted = 0, at = 0;
   const auto sort = [&] {
     std::ranges::sort(values);
@@ -58,13 +59,14 @@ std::vector<double> different(const std::filesystem::path& file, const std::vect
   return values;
 }
 
-/// The axis of coordinates that scatter about the lines of a grid: gaps within a line are less than
-/// a quarter of those between lines. Every line must be there.
+/// The axis of coordinates that scatter about the lines of a grid. Nothing unless gaps within a
+/// line are less than a quarter of those between lines, and no line is missing.
 std::optional<XyzAxis> axis_of_clusters(const std::vector<double>& coordinates) {
   double widest = 0;
   for (std::size_t i = 1; i < coordinates.size(); ++i)
     widest = std::max(widest, coordinates[i] - coordinates[i - 1]);
-  // The line through the coordinates over the numbers of their lines.
+  // Fits a straight line to the coordinates over the indices of their grid lines; its slope is the
+  // step.
   double line = 0, sum_line = 0, sum = 0, squares = 0, products = 0;
   std::vector<double> lines;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -86,14 +88,15 @@ std::optional<XyzAxis> axis_of_clusters(const std::vector<double>& coordinates) 
   return XyzAxis{first, step, static_cast<Index>(line) + 1};
 }
 
-/// Equally spaced values among the different coordinates, from the least to the greatest.
+/// The axis of a grid whose lines have these coordinates (distinct and sorted). name: of the
+/// coordinate, for messages.
 XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& coordinates,
                   const char* name) {
   const double span = coordinates.back() - coordinates.front();
   if (!std::isfinite(span))
     refuse(file, std::string("has points whose ") + name + " is not a number; remove them");
-  // Values closer than 1e-6 of the span are one line of the grid, hence at most a million lines are
-  // told apart.
+  // Values closer than 1e-6 of the whole span belong to one line of the grid, so a grid can have at
+  // most a million lines.
   std::size_t lines = 1;
   double line = coordinates.front(), min_gap = span;
   for (const double value : coordinates) {
@@ -105,10 +108,10 @@ XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& 
   }
   if (lines < 2)
     refuse(file, std::string("has three columns whose ") + name +
-                     " does not vary; as XYZ points it is no surface, as a matrix it lacks its "
-                     "size in the header");
+                     " does not vary, so they are not XYZ points of a surface; a matrix must state "
+                     "its size in the header");
   double intervals = static_cast<double>(lines - 1);
-  // Where a few whole lines are undefined, the closest neighbours still show the step.
+  // Even if a few whole lines are missing, the smallest gap is the step.
   constexpr double max_missing = 0.1;
   if (!on_grid(coordinates, span / intervals) &&
       std::round(span / min_gap) * (1 - max_missing) <= intervals)
@@ -121,17 +124,18 @@ XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& 
   return {coordinates.front(), span / intervals, static_cast<Index>(intervals) + 1};
 }
 
-/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no
-/// step across, and less than half of a grid is not recognised.
+/// Throws InvalidInput for a surface that cannot be recovered from its points: a single line of
+/// points does not show the step across it, and a grid with less than half of its points is not
+/// recognised.
 void require_points(const std::filesystem::path& file, const Surface& surface) {
   const Grid2D& grid = surface.grid;
   if (grid.nx < 2 || grid.ny < 2)
     throw InvalidInput(
         file.string(),
-        "would hold a single line of points, which has no step across; write .h5 or .npy");
+        "would hold a single line of points, whose width is not known then; write .h5 or .npy");
   if (2 * surface.undefined_points() > grid.points())
     throw InvalidInput(file.string(),
-                       "would hold points on less than half of the grid, which then is not "
+                       "would hold points on less than half of the grid, which could not be "
                        "recognised; write .h5 or .npy");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// MPI as the transport of communicators, and its start and end, of mpi.hpp.
+// Implements mpi.hpp: MPI as the transport of communicators; its initialisation and finalisation.
 #include "mpi/mpi.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void check(int status, const char* call) {
               std::string(text.data(), static_cast<std::size_t>(length)));
 }
 
-/// Failures are returned, not ended at.
+/// Duplicates a communicator; MPI calls on the copy return errors instead of ending the program.
 MPI_Comm copy_of(MPI_Comm processes) {
   MPI_Comm copy = MPI_COMM_NULL;
   check(MPI_Comm_dup(processes, &copy), "MPI_Comm_dup");
@@ -35,7 +35,7 @@ MPI_Comm copy_of(MPI_Comm processes) {
   return copy;
 }
 
-/// As the counts and places of MPI 3 are; throws for more.
+/// Converts counts and indices to int, as MPI 3 requires; throws if one does not fit.
 std::vector<int> narrowed(std::span<const std::int64_t> numbers) {
   std::vector<int> result;
   for (const std::int64_t number : numbers) {
@@ -46,7 +46,7 @@ std::vector<int> narrowed(std::span<const std::int64_t> numbers) {
   return result;
 }
 
-/// Makes so many bytes one element.
+/// An MPI data type whose elements have the given number of bytes.
 class Unit {
  public:
   explicit Unit(std::size_t bytes) {
@@ -81,7 +81,7 @@ class MpiTransport : public detail::Transport {
   int size() const override { return ranks_; }
 
   void broadcast(void* bytes, std::size_t count, int from) override {
-    // In pieces, for a count is an int.
+    // Sent in pieces, because MPI counts with int.
     constexpr std::size_t piece = 1 << 30;
     for (std::size_t done = 0; done < count; done += piece)
       check(MPI_Bcast(static_cast<char*>(bytes) + done,
@@ -99,8 +99,8 @@ class MpiTransport : public detail::Transport {
     }
     if (end > most) return gather_in_turn(mine, counts, offsets, static_cast<char*>(all));
     const auto own = static_cast<int>(bytes[static_cast<std::size_t>(rank_)]);
-    check(MPI_Allgatherv(mine, own, MPI_BYTE, all, narrowed(counts).data(), narrowed(offsets).data(),
-                         MPI_BYTE, processes_),
+    check(MPI_Allgatherv(mine, own, MPI_BYTE, all, narrowed(counts).data(),
+                         narrowed(offsets).data(), MPI_BYTE, processes_),
           "MPI_Allgatherv");
   }
 
@@ -124,7 +124,7 @@ class MpiTransport : public detail::Transport {
   }
 
  private:
-  /// More bytes than MPI counts: each process sends its own to all others.
+  /// Gathers more bytes than MPI can count with int: each process in turn broadcasts its part.
   void gather_in_turn(const void* mine, const std::vector<std::int64_t>& counts,
                       const std::vector<std::int64_t>& offsets, char* all) {
     for (std::size_t from = 0; from < counts.size(); ++from) {
@@ -158,13 +158,13 @@ Session::Session() {
   check(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted), "MPI_Init_thread");
   if (granted < MPI_THREAD_FUNNELED) {
     MPI_Finalize();
-    throw Error("MPI: this library cannot be called by a program with threads; use one that can");
+    throw Error("MPI: this MPI library does not support programs with threads; use one that does");
   }
   meeting_ = copy_of(MPI_COMM_WORLD);
 }
 
 Session::~Session() {
-  // A communicator must not go while it is in use.
+  // The communicator of all_here() must not be freed while it is in use.
   MPI_Wait(&met_, MPI_STATUS_IGNORE);
   MPI_Comm_free(&meeting_);
   MPI_Finalize();
@@ -172,11 +172,11 @@ Session::~Session() {
 
 Communicator Session::communicator() const { return mpi::communicator(MPI_COMM_WORLD); }
 
-Communicator Session::ranks_of_node() const {
+Communicator Session::communicator_of_node() const {
   MPI_Comm node = MPI_COMM_NULL;
   check(MPI_Comm_split_type(meeting_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node),
         "MPI_Comm_split_type");
-  Communicator of_node = communicator(node);
+  Communicator of_node = mpi::communicator(node);
   MPI_Comm_free(&node);
   return of_node;
 }

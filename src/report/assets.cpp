@@ -2,8 +2,8 @@
 // HTML, CSS, JavaScript and plotly.js of the report, embedded in the program.
 #include "assets.hpp"
 
-// The assembler takes in the bytes, which costs no compile time and needs no file beside the
-// program.
+// The assembler includes the bytes of the files. This costs no compile time, and the program needs
+// no other file when it runs.
 #define SALEBRA_BYTES(file) ".incbin \"" file "\"\n"
 #define SALEBRA_EMBED(name, bytes)                                                                \
   asm(".pushsection .rodata\n"                                                                    \

@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/assumptions.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
 #include <span>
@@ -26,7 +26,7 @@ using Names = std::vector<std::string>;
 static_assert(std::endian::native == std::endian::little,
               "maps are embedded as they are in memory");
 
-/// Seven digits, which is more than anyone reads off a figure and half as long as all of them.
+/// Rounds to seven digits: more than a figure shows, and half as long as all digits.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
   const std::string text = fmt::format("{:.7g}", value);
@@ -62,22 +62,21 @@ std::string base64(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
-/// Realisations that are drawn one by one; more are only noise on a page.
+/// Number of surfaces whose curves are drawn singly; more would only blur the figure.
 constexpr std::size_t max_single_curves = 24;
-/// Points of all maps of one report together.
+/// Number of points of all surface maps of a page. With several points of the parameter grid, each
+/// map has its share.
 constexpr double map_budget = 512. * 512.;
 
-/// The groups of one study, or of one point of it, and the parts of the payload that are made of
-/// them.
+/// Reads the groups of one study, or of one point of its parameter grid, and makes their part of
+/// the payload.
 class Point {
  public:
   Point(const ResultReader& file, std::string where)
       : file_(file),
         where_(std::move(where)),
         models_(file_.labels(where_ + "curve/model")),
-        pressures_(file_.numbers(where_ + "curve/pressure")),
-        // Files of 1.0 have another name for it.
-        solution_(has("solution") ? "solution" : "answer") {}
+        pressures_(file_.numbers(where_ + "curve/pressure")) {}
 
   Json payload(Index map_side) const {
     Json json;
@@ -97,7 +96,7 @@ class Point {
     add(json, "adhesion", adhesion());
     if (has(solution("pressure"))) {
       for (const char* name : {"validity", "verdicts", "slip_followed"})
-        if (const auto text = file_.text_attribute(where_ + solution_, name)) json[name] = *text;
+        if (const auto text = file_.text_attribute(where_ + "solution", name)) json[name] = *text;
       json["solution"] = {
           {"damping_constant", estimate(solution("damping_constant"), 0, pressures_.size())}};
       json["solution"]["damping_constant"]["error"] =
@@ -111,7 +110,7 @@ class Point {
     Json over_bem =
         by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
     if (!over_bem.is_null() && over_bem.contains(work)) {
-      Json ratios = over_bem[work];  // a new key may move what a reference refers to
+      Json ratios = over_bem[work];  // a copy: adding a key may invalidate references
       over_bem["work_per_cycle"] = std::move(ratios);
     }
     add(json, "over_bem", std::move(over_bem));
@@ -124,15 +123,16 @@ class Point {
   }
 
  private:
-  std::string solution(const std::string& name) const { return solution_ + "/" + name; }
+  std::string solution(const std::string& name) const { return "solution/" + name; }
 
-  /// The name of a loss without slip: in files of 1.0 it was the plain one.
+  /// Returns the name of the dataset of a loss without slip. Files of version 1.0 store it without
+  /// the ending "_without_slip".
   std::string without_slip(const std::string& loss) const {
     const std::string name = loss + "_without_slip";
     return has("damping/" + name) ? name : loss;
   }
 
-  /// In words, one for each pressure.
+  /// The name of the regime (no slip, partial slip, sliding) at each pressure.
   Json regimes() const {
     Json words = Json::array();
     for (const double value : part(solution("regime"), 0, pressures_.size())) {
@@ -165,18 +165,19 @@ class Point {
                        fmt::format("{} {}; the file is damaged", where_ + name, what));
   }
 
-  /// A column that belongs to others that are there; refuses a file without it, or without a value
-  /// in it.
+  /// The values of a dataset that must exist, because related datasets do. Refuses the file as
+  /// damaged if the dataset is missing or empty.
   std::vector<double> required(const std::string& name) const {
     std::optional<std::vector<double>> values = column(name);
     if (!values || values->empty()) refuse_damaged(name, values ? "has no values" : "is missing");
     return std::move(*values);
   }
 
-  /// The values of one of equal blocks; refuses a dataset that is too short for them.
+  /// A dataset consists of equal blocks of `size` values, such as one for each model. Returns one
+  /// block; refuses the file as damaged if the dataset is too short.
   std::vector<double> part(const std::string& name, std::size_t block, std::size_t size) const {
     const std::vector<double> values = required(name);
-    // Not a product of numbers of the file, which may be beyond any number of values.
+    // Divides, because the product block · size of two numbers from the file may overflow.
     if (size > 0 && block >= values.size() / size)
       refuse_damaged(name, fmt::format("has {} values, {}{} are needed", values.size(),
                                        block > 0 ? fmt::format("{} times ", block + 1) : "", size));
@@ -184,7 +185,8 @@ class Point {
     return {begin, begin + std::ptrdiff_t(size)};
   }
 
-  /// {mean, low, high} of NAME_mean and so on; null where the file has none.
+  /// {mean, low, high} from the datasets NAME_mean, NAME_low and NAME_high; null if the file has
+  /// none of them.
   Json estimate(const std::string& name, std::size_t block, std::size_t size) const {
     Json json;
     for (const char* member : {"mean", "low", "high"})
@@ -192,14 +194,15 @@ class Point {
     return json;
   }
 
-  /// Numbers in place of lists.
+  /// {mean, low, high} of one value as numbers; `location` is its index in the datasets of
+  /// estimate().
   Json single(const std::string& name, std::size_t location) const {
     Json json = estimate(name, location, 1);
     for (auto& [member, values] : json.items()) values = Json(values[0]);
     return json;
   }
 
-  /// quantity → model → estimates over the pressures.
+  /// Nested objects: quantity → model → estimates over the pressures.
   Json by_model(const std::string& prefix, const Names& quantities) const {
     Json json;
     for (const std::string& quantity : quantities)
@@ -222,7 +225,7 @@ class Point {
     Json json;
     for (const char* name : {"nx", "ny", "size_x", "size_y"})
       if (const auto value = file_.number_attribute(where_ + "surface", name)) json[name] = *value;
-    for (const char* name : {"warnings", "flags"})
+    for (const char* name : {"warnings", "ensemble_warnings"})
       if (const auto text = file_.text_attribute(where_ + "surface", name)) json[name] = *text;
     if (!has("surface/realisation")) return json;
     json["realisations"] = required("surface/realisation").size();
@@ -252,7 +255,7 @@ class Point {
     const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
     const std::vector<double> loads = part("picture/first_load", 0, x.size() * y.size());
     const Index stride = std::max<Index>(1, (std::max(rows, columns) + map_side - 1) / map_side);
-    // of(value) at every stride-th point along either axis.
+    // Takes of(value) at every stride-th point along both axes, and returns the result in base64.
     const auto reduced = [&](const std::vector<double>& values, const auto& of) {
       std::vector<std::remove_cvref_t<decltype(of(values.front()))>> map;
       for (Index i = 0; i < rows; i += stride)
@@ -260,7 +263,7 @@ class Point {
           map.push_back(of(values[std::size_t(i * columns + j)]));
       return base64(map);
     };
-    // A number beyond 16 bits, or none, is no more than the file's mistake.
+    // Clamps to 16 bits, because a damaged file may hold NaN or larger numbers.
     const auto whole = [](double value) {
       return std::int16_t(std::isnan(value) ? 0 : std::clamp(value, -32768., 32767.));
     };
@@ -275,8 +278,8 @@ class Point {
     if (const auto load = file_.number_attribute(where_ + "picture", "mapped_load")) {
       json["mapped_load"] = *load;
       for (const std::string name : {"contact_pressure", "gap"}) {
-        // In steps of 1/32767 of the largest, which is finer than any screen shows, and half as
-        // long.
+        // Stores 16-bit multiples of max/32767: finer than a screen shows, and half the bytes of a
+        // float.
         const std::vector<double> values = part("picture/" + name, 0, x.size() * y.size());
         const double most = std::ranges::max(values);
         json["max_" + name] = number(most);
@@ -295,7 +298,7 @@ class Point {
     return json;
   }
 
-  /// Mean gap of the boundary elements, one row a surface; NaN where the contact did not converge.
+  /// Mean gap by boundary elements, one row per surface; null where the contact did not converge.
   Json samples() const {
     Json json;
     if (bem() == models_.size() || !has("curve/mean_gap")) return json;
@@ -311,7 +314,7 @@ class Point {
     return json;
   }
 
-  /// A quantity of the boundary elements, one value a surface.
+  /// A quantity of the fits to the boundary-element curves, one value per surface.
   std::vector<double> bem_column(const std::string& name) const {
     return part("fit/" + name, bem(), realisations());
   }
@@ -352,7 +355,8 @@ class Point {
     if (!has("damping/force")) return json;
     json["force"] = list(part("damping/force", 0, pressures_.size()));
     struct Route {
-      std::string name, work, constant;  // the columns of a study
+      // Key of the payload; dataset of the loss; dataset of the damping constant.
+      std::string name, work, constant;
     };
     for (const Route& route :
          {Route{"law", "work_per_cycle_closed_form", "damping_constant_closed_form"},
@@ -384,7 +388,8 @@ class Point {
     return json;
   }
 
-  /// The loop of pressure over mean gap, and what the cycle comes to.
+  /// Adhesive contact: pressure over mean gap in loading and unloading, the pull-off pressure, and
+  /// the work lost in a loading cycle.
   Json adhesion() const {
     Json json;
     const auto gaps = column("adhesion/mean_gap");
@@ -400,19 +405,20 @@ class Point {
     return json;
   }
 
-  /// What judges another motion of the same contact, in the words of the library.
+  /// Numbers and texts with which the page can judge the assumptions for a motion that the reader
+  /// enters.
   Json assumptions() const {
     Json json;
     for (const AssumptionName& name : assumption_names()) {
       const std::string location = "assumptions/" + std::string(name.name);
       if (!has(location + "_verdict")) continue;
       Json& assumption = json[std::string(name.name)];
-      assumption = {{"assumption", std::string(name.assumption)},
-                 {"here", std::string(name.here)},
-                 {"remedy", std::string(name.remedy)},
-                 {"unit", std::string(si_unit(name.value_dimension))},
-                 {"value", list(required(location))},
-                 {"verdict", list(required(location + "_verdict"))}};
+      assumption = {{"assumption", std::string(name.statement)},
+                    {"here", std::string(name.here)},
+                    {"remedy", std::string(name.remedy)},
+                    {"unit", std::string(si_unit(name.value_dimension))},
+                    {"value", list(required(location))},
+                    {"verdict", list(required(location + "_verdict"))}};
       if (has(location + "_onset")) assumption["onset"] = list(required(location + "_onset"));
     }
     return json;
@@ -431,11 +437,11 @@ class Point {
   const std::string where_;
   const Names models_;
   const std::vector<double> pressures_;
-  std::string solution_;  // the group of the loss as described
   const Bootstrap bootstrap_;
 };
 
-/// The parameters of each point of a grid, those that are the same for all left out.
+/// A name for each point of a parameter grid, made of the parameters that differ between the
+/// points.
 Names point_names(const ResultReader& file, std::size_t count) {
   Names names(count);
   for (const auto& [name, title] : {std::pair{"hurst", "H"},
@@ -471,7 +477,7 @@ Json report_payload(const ResultReader& results) {
   }
   if (where.empty())
     throw InvalidInput(results.file().string(),
-                       "contains no study; give the result file of a study or comparison");
+                       "does not contain a study; give the result file of a study or comparison");
   Json json;
   for (const char* name : {"program", "version", "revision", "libraries", "started", "created",
                            "command_line", "configuration"})
@@ -497,29 +503,31 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
   const std::string file = oscillation.file().string();
   if (payload["points"].size() != 1 || !payload["points"][0].contains("damping"))
     throw InvalidInput(
-        file,
-        "cannot be combined with these results; they hold no damping, or that of several points");
+        file, "cannot be combined with these results, which have no damping or several points");
   Json& damping = payload["points"][0]["damping"];
-  // A cycle in time steps passes its ends; levels of a quadrature lie a little within them.
+  // A simulated cycle contains the smallest and the largest indentation; the nodes of a quadrature
+  // end a little before both, so the cycle is preferred.
   const bool stepped = oscillation.has("cycle/indentation");
   const std::string group = stepped ? "cycle" : "intervals";
-  if (!oscillation.has(group + "/indentation") || !oscillation.has(group + "/force") ||
+  // Steps store the force as that of a cycle, contacts of a quadrature as that of a force curve.
+  const std::string forces = group + (stepped ? "/normal_force" : "/force");
+  if (!oscillation.has(group + "/indentation") || !oscillation.has(forces) ||
       !oscillation.number_attribute(group, "work_per_cycle"))
-    throw InvalidInput(file, "holds no oscillation; give the result file of a simulated cycle");
+    throw InvalidInput(
+        file, "does not contain an oscillation; give the result file of a simulated cycle");
   const std::vector<double> indentation = oscillation.numbers(group + "/indentation"),
-                            force = oscillation.numbers(group + "/force");
+                            force = oscillation.numbers(forces);
   if (indentation.size() != force.size() || indentation.size() < 2)
-    throw InvalidInput(file, "has forces that do not belong to its indentations; it is damaged");
+    throw InvalidInput(file, "has forces that do not match its indentations; it is damaged");
   const auto [low, high] = std::ranges::minmax(indentation);
   const double amplitude = (high - low) / 2, middle = (high + low) / 2;
   const Json& stated = damping["normal_amplitude"];
   const double wanted = stated.is_number() ? stated.number() : ForceSample::unknown;
   if (!(std::abs(amplitude / wanted - 1) < (stepped ? 0.02 : 0.2)))
-    throw InvalidInput(
-        file,
-        fmt::format("oscillates by {}, the study by {}; give direct results of the study's motion",
-                    format_quantity(amplitude, Dimension::length),
-                    format_quantity(wanted, Dimension::length)));
+    throw InvalidInput(file, fmt::format("oscillates by {}, but the study by {}; give direct "
+                                         "results for the motion of the study",
+                                         format_quantity(amplitude, Dimension::length),
+                                         format_quantity(wanted, Dimension::length)));
   double mean_force = ForceSample::unknown;
   for (std::size_t i = 1; i < force.size(); ++i) {
     const double before = indentation[i - 1] - middle, after = indentation[i] - middle;

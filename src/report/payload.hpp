@@ -7,14 +7,15 @@
 
 namespace salebra::detail {
 
-/// What the page draws, out of a results file: SI units, seven digits, null where a value is
-/// unknown, keys left out where the file does not hold what they stand for. report/report.js names
+/// The data of a report page, read from a results file: numbers in SI units with seven digits, null
+/// for unknown values. Keys without data in the file are left out. The scripts in report/src read
 /// the keys. Throws InvalidInput for a file without a study.
 Json report_payload(const ResultReader& results);
 
-/// Adds what `oscillate` wrote to the damping of a payload: its work per cycle at the force of its
-/// mean indentation. Throws InvalidInput for a file without such results, of another normal
-/// amplitude, or where the payload has no single damping.
+/// Adds a result of `salebra oscillate` to the damping data of a payload: the loss per cycle, and
+/// the force at the mean indentation. Throws InvalidInput for a file without such a result, for
+/// another normal amplitude than that of the payload, and unless the payload has exactly one point
+/// of the parameter grid with damping.
 void add_direct(Json& payload, const ResultReader& oscillation);
 
 }  // namespace salebra::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Report page: template, style, scripts and data in one HTML file.
+// Writes a report page: template, style, scripts and data in one HTML file.
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/report/report.hpp>
@@ -13,7 +13,8 @@
 namespace salebra {
 namespace {
 
-/// JSON that may stand in a <script>: nothing in it can end the element or open a comment.
+/// JSON text for a <script> element, escaped so that nothing in it can end the element or open a
+/// comment.
 std::string script_text(const Json& json) {
   const std::string text = json.dump();
   std::string result;
@@ -28,7 +29,8 @@ std::string script_text(const Json& json) {
   return result;
 }
 
-/// The template with its {{places}} filled, in one pass: what is put in is not searched again.
+/// Replaces each {{NAME}} in the template by its text, in one pass, so that inserted text is not
+/// searched for further names. locations: names and texts.
 std::string filled(std::string_view page,
                    const std::vector<std::pair<std::string_view, std::string_view>>& locations) {
   std::string result;
@@ -51,8 +53,8 @@ bool can_report() { return !detail::assets::plotly().empty(); }
 void require_report(const std::filesystem::path& html, const WriteOptions& options) {
   if (!can_report())
     throw IoError(
-        "report: this build of salebra carries no plotly.js; run scripts/report-assets (it needs "
-        "pip and a network) and build again");
+        "report: this build of salebra does not contain plotly.js; run scripts/report-assets (it "
+        "needs pip and a network) and build again");
   require_output(html, options);
 }
 

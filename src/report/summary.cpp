@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers and verdict of a report as plain HTML, for readers without JavaScript.
+// Main results and verdict of a report as plain HTML, for readers without JavaScript.
 #include "summary.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace salebra::detail {
 namespace {
 
-/// The member at the end of a path of names; null where the payload does not go so far.
+/// The member of a JSON object at the end of a path of names; nullptr if there is none.
 const Json* find(const Json& object, const std::vector<std::string>& path) {
   const Json* location = &object;
   for (const std::string& name : path) {
@@ -37,7 +37,7 @@ std::string row(const std::vector<std::string>& cells, const char* tag) {
   return text + "</tr>";
 }
 
-/// "4.2 nm (95 %: 4.1 nm … 4.3 nm)".
+/// Formats an estimate (mean, low, high) as "4.2 nm (95 %: 4.1 nm … 4.3 nm)".
 std::string with_interval(const Json* estimate, Dimension dimension) {
   if (estimate == nullptr) return "n/a";
   std::string text = shown(find(*estimate, {"mean"}), dimension);
@@ -62,7 +62,7 @@ std::string law(const Json& point) {
                        "here; use the computed curve.</p>");
 }
 
-/// The verdict, and a paragraph for each line on the verdicts.
+/// The overall verdict, and a paragraph for each line about an assumption.
 std::string validity(const Json& point) {
   const Json* word = find(point, {"validity"});
   const Json* verdicts = find(point, {"verdicts"});
@@ -79,7 +79,7 @@ std::string validity(const Json& point) {
 std::string adhesion(const Json& point) {
   const Json* found = find(point, {"adhesion"});
   if (found == nullptr) return "";
-  return fmt::format("<p>Adhesion: pull-off at {}; a cycle loses {}, ± {} by its steps.</p>",
+  return fmt::format("<p>Adhesion: pull-off at {}; a cycle loses {} ± {} (error of its steps).</p>",
                      with_interval(find(*found, {"pull_off_pressure"}), Dimension::pressure),
                      with_interval(find(*found, {"adhesion_work_per_cycle"}), Dimension::energy),
                      shown(find(*found, {"adhesion_work_error", "mean"}), Dimension::energy));
@@ -147,8 +147,8 @@ std::string summary_of(const Json& payload) {
   std::size_t i = 0;
   for (const Json& point : payload["points"].elements()) {
     const bool several = payload["points"].size() > 1;
-    text += fmt::format("<section><h2>What came out{}</h2>",
-                        several ? fmt::format(", point {}", ++i) : "");
+    text +=
+        fmt::format("<section><h2>Results{}</h2>", several ? fmt::format(", point {}", ++i) : "");
     text += law(point) + adhesion(point) + validity(point) + damping(point) + "</section>";
   }
   return text;

@@ -8,11 +8,11 @@
 
 namespace salebra::detail {
 
-/// Text as HTML shows it.
+/// Escapes the characters that have a meaning in HTML.
 std::string escaped(std::string_view text);
 
-/// Decay length, verdict, assumptions and damping constants of a report's payload as HTML. The page's script
-/// puts its sections in their place.
+/// Decay length, overall verdict, assumptions and damping constants of a report's payload as HTML.
+/// When JavaScript runs, the script of the page replaces this summary by its figures and tables.
 std::string summary_of(const Json& payload);
 
 }  // namespace salebra::detail

@@ -11,11 +11,13 @@
 
 namespace salebra {
 
-/// Line of a list of described structs that stay objects of their own.
+/// In a description: a list of described structs that becomes an array of JSON objects, and not one
+/// column for each member.
 struct Objects : Kept {};
 
-/// Every named member of a described struct: of an estimate its value and its limits, whose
-/// quantity is that of the estimate. Of several a list for each.
+/// JSON object of all members of a described struct, such as the mean and the limits of an
+/// estimate. several: each member of the object is a list with one entry for each struct in
+/// `values`; false: a single value.
 template <Described T>
 Json to_json(const std::vector<T>& values, bool several = true) {
   Json object = Json::object();
@@ -35,14 +37,16 @@ Json to_json(const T& value) {
   return to_json(std::vector<T>{value}, false);
 }
 
-/// The answer to a problem as an object, in the order of its description: numbers of one case,
-/// lists of several. What is not there, and lists without cases, are left out.
-///     Quantity  a value, an estimate as its members, or a list; words are a list always
-///     Table     a list of described structs, whose columns are columns of the answer
-///     Part      a described struct or a list of them as an object of that name, or as columns of
-///               the answer where it has none
-///     Objects   an array of objects of that name
-/// nominal_area  m², as in json_of()
+/// JSON object of the solution of a problem, in the order of its description. A quantity is a
+/// number for one case and a list for several cases. Absent values and empty lists are left out.
+/// Kinds of lines in the description, and what becomes of them:
+///     Quantity  a value, an object with the members of an estimate, or a list; texts are always a
+///               list
+///     Table     a list of described structs; its columns become members of the object
+///     Part      a described struct or a list of them: an object with the name of the part or, if
+///               it has no name, members of the whole object
+///     Objects   an array of objects with the name of the line
+/// nominal_area  m²; 0 if unknown, so that columns per area are left out
 template <Described Answer>
 Json answer_json(const Answer& answer, double nominal_area = 0) {
   Json object = Json::object();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of described structs, and objects made of them.
+// Columns of described structs, and JSON objects made of them.
 #include "columns.hpp"
 
 #include <cmath>

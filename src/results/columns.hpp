@@ -11,7 +11,8 @@
 
 #include "io/json.hpp"
 
-/// Descriptions as tables, for faces that need no types: the program's answers, the glossary.
+/// Described structs as tables of columns, for code that does not know their types: the output of
+/// the program, the glossary.
 namespace salebra {
 
 /// A column of a described struct.
@@ -19,11 +20,12 @@ struct Column {
   std::string name;
   Dimension dimension = Dimension::dimensionless;
   std::string long_name;
-  bool list = false;         ///< several values, of a table
-  bool per_area = false;     ///< the value is to be divided by the nominal area
-  bool where_known = false;  ///< answers leave it out where no row knows its value
-  /// The value at an address: a number, a truth, a word or a list of them, null where there is
-  /// none. Empty for fields, which no answer prints.
+  bool list = false;         ///< the member is a list, a column of a table
+  bool per_area = false;     ///< the value must be divided by the nominal area
+  bool where_known = false;  ///< the output omits the column if its value is unknown in all rows
+  /// Reads the value of this column from a struct of the described type at the address `whole`: a
+  /// number, a boolean, a text or a list of these; null if there is none. The function is empty for
+  /// fields, which are not printed.
   std::function<Json(const void* whole)> value;
 };
 
@@ -56,7 +58,8 @@ constexpr bool is_list = false;
 template <class Item>
 constexpr bool is_list<std::vector<Item>> = true;
 
-/// With the column per area of an extensive one.
+/// Adds the column of a quantity. For an extensive quantity (such as a force) it also adds the
+/// column divided by the nominal area.
 void add_column(std::vector<Column>& columns, const Quantity& quantity, bool list, bool extensive,
                 bool where_known, std::function<Json(const void*)> value);
 
@@ -97,14 +100,14 @@ Json lists_of(const std::vector<Column>& columns, const void* whole);
 
 }  // namespace detail
 
-/// The columns of T, those of its parts included, in the order of the description.
+/// The columns of T and of the structs that are parts of it, in the order of the descriptions.
 template <Described T>
 const std::vector<Column>& columns_of() {
   static const std::vector<Column> columns = detail::all_columns<T>();
   return columns;
 }
 
-/// The first column of that name, or none.
+/// The first column with this name in the given structs; nullptr if there is none.
 template <Described... Structs>
 const Column* find_column(std::string_view name) {
   for (const std::vector<Column>* columns : {&columns_of<Structs>()...})
@@ -113,19 +116,19 @@ const Column* find_column(std::string_view name) {
   return nullptr;
 }
 
-/// The columns of a result as an object, its lists left out. nominal_area: m²; 0: not known, and no
-/// columns per area.
+/// JSON object with the columns of a result, except those that are lists. nominal_area: m²; 0:
+/// unknown, so columns per area are left out.
 template <Described T>
 Json json_of(const T& result, double nominal_area = 0) {
   return detail::numbers_of(columns_of<T>(), {&result, 1, sizeof(T)}, false, nominal_area);
 }
-/// Returns a list for each column of several results.
+/// JSON object that has, for each column, a list with one value per result.
 template <Described T>
 Json json_of(const std::vector<T>& results, double nominal_area = 0) {
   return detail::numbers_of(columns_of<T>(), {results.data(), results.size(), sizeof(T)}, true,
                             nominal_area);
 }
-/// The columns of a result that are lists.
+/// JSON object of those columns of a result that are lists.
 template <Described T>
 Json lists_of(const T& result) {
   return detail::lists_of(columns_of<T>(), &result);

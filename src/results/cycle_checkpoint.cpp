@@ -24,8 +24,8 @@ namespace {
 
 std::string unit(const auto& line) { return std::string(si_unit(line.dimension)); }
 
-/// A described state as a group: counts and truths as attributes, numbers and fields as datasets,
-/// samples and body as groups in it.
+/// Writes a state of a cycle as a group of the file: counts, booleans and names as attributes,
+/// numbers and fields as datasets, samples and body as groups within it.
 class StateWriter {
  public:
   StateWriter(ResultFile& file, const std::string& path)
@@ -92,7 +92,7 @@ class StateWriter {
   bool has_axes_ = false;
 };
 
-/// The inverse of StateWriter.
+/// Reads a state that StateWriter wrote.
 class StateReader {
  public:
   StateReader(const ResultReader& reader, std::string path)
@@ -111,7 +111,8 @@ class StateReader {
     const std::optional<double> found = reader_.number_attribute(path_, name);
     require(found.has_value(), reader_.file().string(), name,
             "is missing; remove the damaged file");
-    // The conversion of others is undefined.
+    // Refuses a number that the integer type cannot hold; converting it would be undefined
+    // behaviour.
     constexpr std::uint64_t most =
         std::min<std::uint64_t>(std::numeric_limits<Count>::max(), std::uint64_t{1} << 53);
     require(std::abs(*found) <= static_cast<double>(most), reader_.file().string(), name,
@@ -174,7 +175,7 @@ class StateReader {
   std::string path_;
 };
 
-/// Adds up what it is given.
+/// A visitor of described states that computes the checksum of their data instead of storing them.
 struct StateSum {
   static constexpr bool reads = false;
   detail::Checksum sum = {};
@@ -187,7 +188,7 @@ std::string checksum_of(std::span<const CycleState> states) {
   return bytes.sum.digits();
 }
 
-// Names in the order of CycleState::body.
+// Names of the kinds of bodies, in the order of the types in CycleState::body.
 constexpr std::array kinds{"stuck", "frictional", "coupled"};
 
 }  // namespace
@@ -252,13 +253,13 @@ std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
   const ResultReader reader(file);
   const auto holds = [&](const char* kind) { return reader.has(kind); };
   require(reader.has("settings") && std::ranges::any_of(kinds, holds), file.string(), "",
-          "is no checkpoint of a cycle; name a file that a simulation left");
+          "is not a checkpoint of a cycle; name a file that a simulation wrote");
   const auto require_same = [&](const char* group, const std::string& name,
                                 std::string_view value) {
     const std::optional<std::string> then = reader.text_attribute(group, name);
     if (!then || *then != value)
       throw InvalidInput(file.string(),
-                         fmt::format("{} was {} in the checkpoint and is {} now; resume with the "
+                         fmt::format("{} is {} in the checkpoint but {} now; resume with the "
                                      "settings of the first run or remove the file",
                                      name, then ? *then : "not there", value));
   };
@@ -275,7 +276,7 @@ std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
   read(kinds[1], std::type_identity<SlidingState>{});
   read(kinds[2], std::type_identity<CoupledState>{});
   require(reader.text_attribute("settings", "checksum") == checksum_of(states), file.string(), "",
-          "is damaged: its states do not match their checksum; remove it to begin the cycle anew");
+          "is damaged: its states do not match their checksum; remove it to start the cycle again");
   return states;
 }
 

@@ -11,28 +11,31 @@
 
 namespace salebra {
 
-/// What decides every bit of a simulated cycle, as names and texts: grid, surface, material,
-/// motion, steps, tolerances, arithmetic. The version of the program is compared with them.
+/// All settings on which the bits of a simulated cycle depend, as pairs of name and text: grid,
+/// surface, material, motion, steps, tolerances, arithmetic. A checkpoint is only read if these
+/// settings and the version of the program are the same.
 using CycleSettings = std::vector<std::pair<std::string, std::string>>;
 
-/// Short fingerprint of a field's bits, for settings.
+/// Short checksum text of the bits of a field, used as a setting.
 std::string fingerprint(const Field& values);
 
-/// The arguments of a cycle apart from its contact. What decides that must be added, such as the
-/// fingerprint of the heights.
+/// The settings of a cycle except those that describe its contact. The caller adds these, for
+/// example the fingerprint of the heights.
 CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
                              const Oscillation& motion, double mean_indentation,
                              const CycleOptions& options);
 
-/// Writes states of cycles, at most one of each kind of body, to an HDF5 file, replacing the last
-/// one; the file is complete at any time.
-/// throws  IoError for what the system refuses
+/// Writes states of cycles, at most one for each kind of body (stuck, frictional, coupled), to an
+/// HDF5 file. The file replaces the previous one in one step, so a complete file exists at any
+/// time.
+/// throws  IoError if a system call fails
 void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const CycleState> states,
                             const CycleSettings& settings, const Provenance& provenance);
 
-/// The states of that file, bit for bit: stuck, frictional, coupled, as far as they are there.
-/// throws  InvalidInput naming the file for what is not a checkpoint or is damaged, by a checksum
-///         of the states, and naming the setting where one differs
+/// Reads the states in a checkpoint bit for bit. Each kind of body (stuck, frictional, coupled) has
+/// at most one state.
+/// throws  InvalidInput that names the file if it is not a checkpoint or a checksum shows that it
+///         is damaged, and that names the setting if one differs
 std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
                                               const CycleSettings& settings);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pressure, traction and slip fields of chosen steps of a cycle, one file a frame, with a list.
+// Writes pressure, traction and slip fields at chosen steps of a cycle, one file for each step, and
+// an XDMF file that lists these files.
 #include "cycle_fields.hpp"
 
 #include <fmt/format.h>
@@ -129,7 +130,8 @@ void CycleFields::add(int step, double time, std::vector<std::string> fields) {
 }
 
 void CycleFields::write_list() const {
-  // XDMF counts dimensions from the slowest: nx ny for arrays with y contiguous.
+  // XDMF lists the dimensions of an array from the slowest index on. y is contiguous in these
+  // arrays, so nx comes before ny.
   const auto item = [&](const std::filesystem::path& file, const std::string& dataset,
                         const char* components) {
     return fmt::format(

@@ -10,14 +10,15 @@
 
 namespace salebra {
 
-/// What a frame shows of a state, (nx, ny).
+/// The fields at one chosen step, each (nx, ny).
 struct CycleFrame {
   Field contact;
   Field traction_x, traction_y;          ///< Pa
   Field displacement_x, displacement_y;  ///< m
   Field contact_pressure;                ///< Pa
   Field gap;                             ///< m
-  Field loss;                            ///< J/m²; empty where nothing slips
+  /// Energy lost per area since the start of the period, J/m²; empty without slip.
+  Field loss;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CycleFrame>) {
@@ -35,40 +36,39 @@ constexpr void describe(auto&& visit, std::type_identity<CycleFrame>) {
   visit(&S::loss, Quantity{"loss", energy_per_area, "energy dissipated in a period by unit area"});
 }
 
-/// Where the fields lie, (nx, ny, 3).
+/// Centres of the cells in space, (nx, ny, 3).
 struct CycleMesh {
-  std::vector<double> cells;  ///< m
+  std::vector<double> cells;  ///< coordinates x, y, z of each cell, m
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CycleMesh>) {
   visit(&CycleMesh::cells, Quantity{"cells", Dimension::length, "middles of the cells"});
 }
 
-/// Fields of a simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
-///     PREFIX.xdmf          what to open; lists the steps written so far
-///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and
-///                          /mesh/heights
-///     PREFIX-0016.h5       /fields/… at step 16: a CycleFrame; its loss is that since the start of
-///                          the period
-/// One object is for the states of one cycle. All are (nx, ny) with x first. The points are given
-/// one by one, so that no reader has to guess which index is x. Every file is complete as soon as
-/// it is there; an interrupted run leaves the steps that it has finished.
+/// Writes fields of one simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
+///     PREFIX.xdmf          the file to open; lists the steps written so far
+///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): centre of each cell, and /mesh/heights
+///     PREFIX-0016.h5       /fields/NAME at step 16, for each field of a CycleFrame
+/// All fields are (nx, ny) with x first. The mesh lists every point, so no reader has to guess
+/// which index is x. A file appears only when it is complete; an interrupted run leaves the files
+/// of the steps that it has finished.
 class CycleFields {
  public:
-  /// Writes the mesh. Throws as require_output does, for any of its files.
+  /// Writes the mesh. Throws as require_output() does for each file that will be written.
   CycleFields(std::filesystem::path prefix, const Surface& surface, Provenance provenance,
               const WriteOptions& options = {});
 
-  /// The names of its files where these steps are written: the list, the mesh, and the steps.
+  /// The names of all files written for these steps: the XDMF file, the mesh, and one file per
+  /// step.
   static std::vector<std::filesystem::path> files(const std::filesystem::path& prefix,
                                                   const std::vector<int>& steps);
 
-  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: the
-  /// pressure, of a stuck contact, and the gap, of one without coupling; a default one where
-  /// nothing is in contact.
+  /// Writes the state at a step, and replaces an earlier file of that step. time: in periods.
+  /// normal: the normal contact at this step, from which the pressure of a stuck contact and the
+  /// gap of a contact without coupling are taken; default-constructed if nothing is in contact.
   void write(const CycleState& state, double time, const NormalContactState& normal);
 
-  /// Steps that an earlier, interrupted run has written, so that the list names them too.
+  /// Adds a step that an earlier, interrupted run has written to the list in PREFIX.xdmf.
   void keep(int step, double time);
 
  private:

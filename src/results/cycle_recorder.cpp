@@ -12,7 +12,7 @@ void CycleRecordOptions::check() const {
   require(checkpoint_every >= 0, "checkpoint_every", checkpoint_every, "must be >= 0, s");
   if (!checkpoint.empty() && !resume && !writing.overwrite && std::filesystem::exists(checkpoint))
     throw InvalidInput(checkpoint.string(),
-                       "exists; resume from it, or remove it to start the cycle anew");
+                       "exists; resume from it, or remove it to start the cycle again");
 }
 
 CycleRecorder::CycleRecorder(CycleRecordOptions options, CycleSettings settings,
@@ -48,7 +48,8 @@ CycleResult CycleRecorder::run(CycleOptions options,
     const CycleState& state = states_[cycle];
     options.resume = &state;
     if (cycle < fields_.size())
-      // A later period writes each step anew.
+      // Lists the steps whose files an interrupted run has written; in a later period they are
+      // replaced.
       for (const int step : options_.field_steps)
         if (state.period > 0 || step <= state.step)
           fields_[cycle].keep(step, static_cast<double>(step) / steps);
@@ -60,7 +61,7 @@ CycleResult CycleRecorder::run(CycleOptions options,
     if (result.termination == Termination::interrupted) write_checkpoint();
     return result;
   } catch (const IoError&) {
-    throw;  // the checkpoint itself, as of a full disk
+    throw;  // writing the checkpoint failed, for example because the disk is full
   } catch (...) {
     write_checkpoint();
     throw;

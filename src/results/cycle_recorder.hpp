@@ -12,42 +12,48 @@
 
 namespace salebra {
 
-/// What is kept of a long cycle while it runs.
+/// Options for saving the state and the fields of a long cycle while it runs.
 struct CycleRecordOptions {
-  std::filesystem::path checkpoint = {};  ///< empty: none
-  double checkpoint_every = 60;           ///< s, >= 0; 0: every step
-  bool resume = false;                    ///< continue from the checkpoint, where it is there
-  std::filesystem::path fields = {};      ///< prefix of CycleFields; empty: none
-  std::vector<int> field_steps = {};      ///< steps of which fields are written
+  std::filesystem::path checkpoint = {};  ///< file of the state; empty: no checkpoint
+  /// Time between two checkpoints, s, >= 0; 0: write one after every step.
+  double checkpoint_every = 60;
+  bool resume = false;  ///< continue from the checkpoint if it exists
+  /// Prefix of the files of CycleFields; empty: write no fields.
+  std::filesystem::path fields = {};
+  std::vector<int> field_steps = {};  ///< steps at which fields are written
   WriteOptions writing =
-      {};  ///< of the fields; overwrite also discards a checkpoint that is in the way
+      {};  ///< options for the fields; overwrite also discards an existing checkpoint
 
-  /// Throws InvalidInput for a bad interval and for a checkpoint in the way.
+  /// Throws InvalidInput if checkpoint_every is not >= 0, and for an existing checkpoint that would
+  /// be replaced.
   void check() const;
 };
 
-/// The surface of recorded cycles and its normal contact, for fields.
+/// The surface of recorded cycles and a solver of its normal contact, both needed to write fields.
 struct RecordedContact {
   const Surface& surface;  ///< must outlive the recorder
   std::function<NormalContactState(double indentation)> normal_at;
 };
 
-/// Runs cycles one after the other, with checkpoints in time and fields at steps. A checkpoint
-/// holds the last states of the cycles that are finished, and that of the current one; whatever
-/// stops a cycle leaves it.
+/// Runs simulated cycles one after the other. Writes checkpoints at intervals of time and fields at
+/// chosen steps. A checkpoint holds the last state of each finished cycle and of the current one.
+/// It is kept if anything stops the cycle.
 class CycleRecorder {
  public:
-  /// Reads the checkpoint to resume from.
-  /// throws  InvalidInput for a file that is in the way or of other settings
+  /// Reads the checkpoint if `resume` is set and the file exists.
+  /// throws  InvalidInput if a checkpoint would be replaced or was written with other settings
   CycleRecorder(CycleRecordOptions options, CycleSettings settings, Provenance provenance);
-  /// Writes, with fields, the mesh of each cycle, in the order of their runs, as PREFIXNAME.xdmf.
+  /// Does the same and, if fields are written, also writes the mesh of each cycle; its files have
+  /// the prefix `fields` + name. names: one for each cycle, in the order in which the cycles will
+  /// run.
   CycleRecorder(CycleRecordOptions options, CycleSettings settings, Provenance provenance,
                 RecordedContact contact, const std::vector<std::string>& names);
 
-  /// simulate(options) with `resume` and `on_state` filled in.
+  /// Runs a cycle: calls simulate() with `resume` and `on_state` of the options set, and returns
+  /// its result.
   CycleResult run(CycleOptions options,
                   const std::function<CycleResult(const CycleOptions&)>& simulate);
-  /// Removes the checkpoint: the results take its place.
+  /// Removes the checkpoint. To be called after the results are saved.
   void done() const;
 
  private:
@@ -59,9 +65,9 @@ class CycleRecorder {
   CycleSettings settings_;
   Provenance provenance_;
   std::function<NormalContactState(double)> normal_at_;
-  std::vector<CycleFields> fields_;  // of each cycle
-  std::vector<CycleState> states_;   // of each cycle as far as it got
-  std::size_t cycles_ = 0;           // begun
+  std::vector<CycleFields> fields_;  // one for each cycle
+  std::vector<CycleState> states_;   // the last state of each cycle
+  std::size_t cycles_ = 0;           // number of cycles begun
   bool unsaved_ = false;
   Clock::time_point saved_ = Clock::now();
 };

@@ -14,13 +14,13 @@
 
 #include "base/suggestion.hpp"
 
-/// What faces read from descriptions (base/describe.hpp).
+/// Reads names, units and values from the descriptions of structs (base/describe.hpp).
 namespace salebra {
 
 template <class Value>
 concept Number = std::is_arithmetic_v<Value> || std::same_as<Value, std::optional<double>>;
 
-/// NaN where there is none.
+/// The value as a double; NaN if an optional value is empty.
 template <Number Value>
 double as_number(const Value& value) {
   if constexpr (std::is_arithmetic_v<Value>)
@@ -29,7 +29,8 @@ double as_number(const Value& value) {
     return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Calls visit(number, quantity) for every column of T that is a real number; number: NumberOf<T>.
+/// Calls visit(number, quantity) for every column of T that is a real number. number: a function of
+/// type NumberOf<T> that reads the column.
 template <Described T, class Visitor>
 void for_each_number(Visitor&& visit) {
   for_each_column<T>([&](const auto& access, const Quantity& quantity) {
@@ -39,7 +40,7 @@ void for_each_number(Visitor&& visit) {
   });
 }
 
-/// Name, unit and meaning of the column of that name.
+/// Name, unit and meaning of the column of T with this name.
 template <Described T>
 Quantity quantity_of(std::string_view name) {
   Quantity found{name, Dimension::dimensionless, name};
@@ -49,7 +50,8 @@ Quantity quantity_of(std::string_view name) {
   return found;
 }
 
-/// The column of that name. Throws InvalidInput "field: 'name' is none of …".
+/// The function that reads the column of T with this name. field: the input that gave the name, for
+/// the error message. Throws InvalidInput "field: 'name' is none of (list of the columns)".
 template <Described T>
 NumberOf<T> number_of(std::string_view name, std::string_view field) {
   NumberOf<T> found;
@@ -61,8 +63,9 @@ NumberOf<T> number_of(std::string_view name, std::string_view field) {
     known += (known.empty() ? "" : ", ") + names.back();
   });
   if (!found)
-    throw InvalidInput(field, "'" + std::string(name) + "'",
-                       "is none of " + known + did_you_mean(name, names) + "; choose one of them");
+    throw InvalidInput(
+        field, "'" + std::string(name) + "'",
+        "is not one of " + known + did_you_mean(name, names) + "; choose one of them");
   return found;
 }
 

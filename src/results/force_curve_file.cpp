@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Force curves in HDF5 groups and files.
+// Writes and reads force curves in HDF5 groups and files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
     }
     group.dataset(name, values, {coordinate}, units, long_name);
   }
-  require(!coordinate.empty(), "curve", curve.samples.size(), "samples hold no known quantity");
+  require(!coordinate.empty(), "curve", curve.samples.size(), "samples contain no known quantity");
   for (const auto& [quantity, values] : beside)
     group.dataset(std::string(quantity.name), values, {coordinate},
                   std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
@@ -70,14 +70,14 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
   curve.adhesive = reader.text_attribute(group, "adhesive").has_value();
-  std::optional<std::size_t> length;  // no column was read yet
+  std::optional<std::size_t> length;  // number of samples; empty until the first column is read
   std::size_t surfaces = 1;
   bool study = false;
   const auto column = [&](const std::string& name) {
     std::vector<double> values = reader.numbers(group + "/" + name);
     const std::vector<Index> shape = reader.shape(group + "/" + name);
     std::size_t rows = values.size();
-    if (shape.size() == 3) {  // a study's: model, realisation, pressure
+    if (shape.size() == 3) {  // files of a study: (model, realisation, pressure)
       if (shape[0] < 1 || shape[1] < 1 || (study && surfaces != std::size_t(shape[1])))
         detail::refuse(reader.file(), "has no surface, or too few, in " + group);
       study = true;
@@ -103,12 +103,12 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
       try {
         factor = parse_quantity("1 " + units, quantity.dimension, "units");
       } catch (const InvalidInput&) {
-        detail::refuse(reader.file(), fmt::format("has {}/{} in '{}', which is no unit like {}",
+        detail::refuse(reader.file(), fmt::format("has {}/{} in '{}', which is not a unit like {}",
                                                   group, name, printable_line(units), si));
       }
       for (double& value : columns.back().second) value *= factor;
     }
-  if (!length) detail::refuse(reader.file(), "holds no force curve in its group " + group);
+  if (!length) detail::refuse(reader.file(), "contains no force curve in its group " + group);
   const std::vector<double> converged =
       reader.has(group + "/converged") ? column("converged") : std::vector<double>{1};
   if (study) {
@@ -119,7 +119,8 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   }
   curve.samples.resize(*length);
   std::vector<ForceCurve> curves(surfaces, curve);
-  // What all surfaces have in common, such as their pressures, is stored once.
+  // A column that is the same for all surfaces, such as the pressure, is stored once and used for
+  // each.
   for (std::size_t i = 0; i < surfaces * *length; ++i) {
     ForceSample& sample = curves[i / *length].samples[i % *length];
     for (const auto& [member, values] : columns) sample.*member = values[i % values.size()];
@@ -134,7 +135,7 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
 ForceCurve read_force_curve(const ResultReader& reader, const std::string& group) {
   std::vector<ForceCurve> curves = read_force_curves(reader, group);
   if (curves.size() != 1)
-    detail::refuse(reader.file(), "holds the curves of " + std::to_string(curves.size()) +
+    detail::refuse(reader.file(), "contains the curves of " + std::to_string(curves.size()) +
                                       " surfaces in " + group +
                                       "; give the file of a study of one surface");
   return std::move(curves.front());
@@ -167,7 +168,7 @@ void require_curve_name(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   if (extension != ".h5" && extension != ".hdf5" && extension != ".csv" && extension != ".txt")
     throw InvalidInput(file.string(), "has the extension '" + extension +
-                                          "', which names no format of a curve; use .h5 or .csv");
+                                          "', which is not a format of a curve; use .h5 or .csv");
 }
 
 ForceCurve read_force_curve(const std::filesystem::path& file) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The glossary: dimension and long name of each quantity of the described structs.
+// The glossary: dimension and long name of each quantity in the described structs.
 #include <algorithm>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
@@ -9,10 +9,10 @@
 #include <salebra/contact/normal/distributions.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
-#include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/joint.hpp>
-#include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
@@ -36,7 +36,7 @@
 namespace salebra {
 namespace {
 
-/// The column of a name, of the first struct that has it, or none.
+/// The column of that name in the first of the listed structs that has one; nullptr if none has.
 const Column* entry_of(std::string_view name) {
   return find_column<
       Surface, HeightStatistics, SpectralMoments, Summit, SummitStatistics, SummitEnsemble,
@@ -44,13 +44,13 @@ const Column* entry_of(std::string_view name) {
       ReliabilityLimit, HeightHistogram, SelfAffineParameters, Material, ForceCurve, ForceSample,
       NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, LawDescription,
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
-      CycleFrame, CycleMesh, IntervalQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
-      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactParameters, LargestMotion, Assumption, Loss,
-      TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
-      SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,
-      PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy, NonGaussianSurface,
-      Conductances, ContactDistributions, FlowFactors, AdhesionOfState, AdhesiveCycle,
-      AdhesivePoint>(name);
+      CycleFrame, CycleMesh, IntervalQuadratureResult, OscillationLoss, ExponentialLoss,
+      SampledMotion, EqualFrequency, Drag, DampingResult, CommonPeriod, ContactParameters,
+      MaxMotion, Assumption, Loss, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint,
+      RegimePoint, Slider, SliderMotion, SliderStability, SliderThresholds, OscillatorDecay,
+      FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping,
+      Anisotropy, NonGaussianSurface, Conductances, ContactDistributions, FlowFactors,
+      AdhesionOfState, AdhesiveCycle, AdhesivePoint>(name);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@
 
 namespace salebra {
 
-/// A group of a file whose datasets take their unit and meaning from the table of quantities.
-/// throws  as ResultGroup; InvalidInput for a name that is not in the table
+/// A group of a result file. The unit and the meaning of each dataset come from the glossary of
+/// quantities, by the name of the dataset.
+/// throws  as ResultGroup; InvalidInput for a name that is not in the glossary
 class QuantityGroup {
  public:
   explicit QuantityGroup(ResultGroup group) : group_(std::move(group)) {}
@@ -26,7 +27,7 @@ class QuantityGroup {
     const Quantity quantity = listed(name);
     group_.dataset(name, values, coordinates, unit(quantity), std::string(quantity.long_name));
   }
-  /// A field on the coordinates of its first and its second index.
+  /// Writes a field; `first` and `second` name the coordinates that belong to its two indices.
   void dataset(const std::string& name, const Field& values, const std::string& first = "x",
                const std::string& second = "y", FieldType type = FieldType::float64) {
     const Quantity quantity = listed(name);
@@ -37,17 +38,17 @@ class QuantityGroup {
     const Quantity quantity = listed(name);
     group_.scalar(name, value, unit(quantity), std::string(quantity.long_name));
   }
-  /// A number in the SI unit of its quantity.
+  /// Writes a number as an attribute, in the SI unit of its quantity.
   template <class Value>
   void attribute(const std::string& name, Value value) {
     group_.attribute(std::string(listed(name).name), value);
   }
-  /// The coordinates x and y of the cells of a grid.
+  /// Writes the coordinates x and y of the cells of a grid.
   void axes(const Grid2D& grid) {
     coordinate("x", positions(grid.nx, grid.dx()));
     coordinate("y", positions(grid.ny, grid.dy()));
   }
-  /// For words and indices, which are no quantities.
+  /// The group without glossary, for texts and indices, which are no quantities.
   ResultGroup& plain() { return group_; }
 
  private:

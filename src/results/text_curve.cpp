@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reader and writer of force curves as text tables with units in their titles.
+// Reader and writer of force curves as text tables whose column titles contain units.
 #include "text_curve.hpp"
 
 #include <fmt/format.h>
@@ -18,15 +18,15 @@
 namespace salebra::detail {
 namespace {
 
-/// A column of the table: what it means and what its values are multiplied by.
+/// A column of the table: the quantity, and the factor that converts its values to SI units.
 struct Column {
   double ForceSample::*member = nullptr;
   bool converged = false;
   double factor = 1;
 };
 
-/// "mean_gap [nm]", "mean_gap (nm)" or "mean_gap". A column that a curve has no use for is passed
-/// over where it bears no unit, or is a quantity that commands write beside a curve.
+/// Reads a column title such as "mean_gap [nm]", "mean_gap (nm)" or "mean_gap". A title that is no
+/// quantity of a curve is skipped if it has no unit, or if it is another quantity of salebra.
 Column column_of(const std::filesystem::path& file, std::string_view text, UnitsOfTitles& units) {
   const ColumnTitle title = column_title(file, text);
   if (title.name == "converged") return {.converged = true};
@@ -36,8 +36,9 @@ Column column_of(const std::filesystem::path& file, std::string_view text, Units
       return {.member = known.member, .factor = factor_of(file, title, known.quantity.dimension)};
     }
   if (!title.unit.empty() && !is_quantity(title.name))
-    refuse(file, "has a column '" + std::string(text) +
-                     "', which is no quantity of a curve; name it as salebra does, or remove it");
+    refuse(file,
+           "has a column '" + std::string(text) +
+               "', which is not a quantity of a curve; name it as salebra does, or remove it");
   return {};
 }
 
@@ -65,7 +66,7 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
     if (curve.nominal_area > 0 && std::isnan(sample.pressure))
       sample.pressure = sample.force / curve.nominal_area;
   }
-  // A column that is there but for some rows.
+  // Refuses a column that has values in some rows only.
   const auto refuse_gap = [&](std::initializer_list<double ForceSample::*> members) {
     for (const auto& [quantity, member] : curve_quantities()) {
       if (std::ranges::find(members, member) == members.end()) continue;
@@ -125,7 +126,7 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
              "does not name its columns; begin with a line such as 'pressure [Pa], mean_gap [m]'");
     values.clear();
     reader.append(line, lines.number(), values);
-    // A last field that is empty leaves no trace behind its separator.
+    // The row ended with an empty field, for which the reader has added no value.
     if (values.size() + 1 == columns.size() && reader.symbol())
       values.push_back(ForceSample::unknown);
     if (values.size() != columns.size())
@@ -138,7 +139,8 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
       if (columns[i].converged) sample.converged = values[i] != 0;
     }
   }
-  if (curve.samples.empty()) refuse(file, "holds no samples of a curve; name a table or HDF5 file");
+  if (curve.samples.empty())
+    refuse(file, "contains no samples of a curve; name a table or HDF5 file");
   complete_and_sort(file, curve);
   return curve;
 }

@@ -12,13 +12,13 @@
 
 namespace salebra::detail {
 
-/// A number of ForceSample, as files of one curve have it.
+/// A quantity of ForceSample that is stored in files of a single curve.
 struct CurveQuantity {
   Quantity quantity;
   double ForceSample::*member;
 };
 
-/// All of them, the loads first.
+/// All quantities of a curve, the loads (pressure, force) first.
 inline std::vector<CurveQuantity> curve_quantities() {
   std::vector<CurveQuantity> all;
   describe(

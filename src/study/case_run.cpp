@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run of one parameter combination: realisations in parallel until the requested precision is met.
+// Run of one point of the parameter grid: computes realisations in parallel until all seeds are
+// done or the requested precision is met.
 #include "case_run.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ class CaseRun {
         seeds_(seeds_of(result.configuration)),
         fractions_(seeds_.size()),
         precision_(result.configuration) {
-    // A list that doubles would need three times its memory for a moment.
+    // Reserves the list, because growing it would need up to three times its memory for a moment.
     if (result.configuration.target_precision <= 0) found_.reserve(seeds_.size());
   }
 
@@ -52,7 +53,8 @@ class CaseRun {
     collectively(run_.groups.all(), [this] {
       if (failure_) std::rethrow_exception(failure_);
     });
-    // Realisations beyond a gap, or beyond the number that is enough, take no part.
+    // Drops realisations after a seed without a result, and those beyond the number that is enough
+    // for the precision.
     const std::size_t used = std::min(found_.size(), limit_.load());
     found_.erase(found_.begin() + std::ptrdiff_t(used), found_.end());
     result_.precision_reached = limit_ < seeds_.size();
@@ -81,7 +83,8 @@ class CaseRun {
     std::optional<Realisation> realisation = {};
   };
 
-  /// What each process has found, in all of them; without those that found nothing.
+  /// Collects the realisations that the processes have found. Returns the list in each process,
+  /// without the processes that found nothing.
   std::vector<Found> shared(Found mine) const {
     const Communicator& all = run_.groups.all();
     std::vector<Found> found;
@@ -90,7 +93,8 @@ class CaseRun {
       return found;
     }
     std::vector<std::size_t> locations(std::size_t(all.size()));
-    all.gather_all(&mine.location, std::vector(locations.size(), sizeof mine.location), locations.data());
+    all.gather_all(&mine.location, std::vector(locations.size(), sizeof mine.location),
+                   locations.data());
     const std::vector<std::string> records =
         all.gather_all(mine.realisation ? encode({{}, *mine.realisation}, 0) : "");
     for (std::size_t rank = 0; rank < records.size(); ++rank)
@@ -99,8 +103,9 @@ class CaseRun {
     return found;
   }
 
-  /// Each group computes a surface at a time, and waits for the others. The first process decides
-  /// which: another might decide differently by the last digit of its type of processor.
+  /// Each group of processes computes one surface at a time, and waits for the other groups. The
+  /// first process chooses the surfaces for all, because other processors might differ in the last
+  /// digit of the precision, and so in the choice.
   void compute_together() {
     const Groups& groups = run_.groups;
     const Communicator& all = groups.all();
@@ -117,7 +122,7 @@ class CaseRun {
       if (turn.front() == none) break;
       std::erase(turn, none);
       Found mine;
-      if (const auto group = std::size_t(groups.location()); group < turn.size())
+      if (const auto group = std::size_t(groups.index()); group < turn.size())
         mine = {turn[group], analysed(turn[group], turn)};
       std::vector<Found> found = shared(std::move(mine));
       stop_ = !all.all_agree(!stop_);
@@ -137,8 +142,9 @@ class CaseRun {
     limit_ = limit;
   }
 
-  /// A surface in the first process of a group; nothing in the others, and where all of the group
-  /// were stopped or failed alike. What one process alone fails by is thrown, and ends the program.
+  /// Computes realisation i. Returns it in the first process of a group, and nothing in the other
+  /// processes of the group. Returns nothing at all if the whole group was stopped or failed. If
+  /// only one process fails, its exception is thrown and ends the program.
   std::optional<Realisation> analysed(std::size_t i, const std::vector<std::size_t>& turn) {
     const Communicator& own = run_.groups.own();
     try {
@@ -183,7 +189,7 @@ class CaseRun {
       note(i, std::move(realisation), std::chrono::duration<double>(Clock::now() - start).count(),
            false);
     } catch (const Interrupted&) {
-      // Stopped, or not wanted any more.
+      // The run was stopped, or the realisation is no longer needed for the precision.
     }
   }
 
@@ -192,7 +198,7 @@ class CaseRun {
     return is_there(i);
   }
 
-  /// With the guard held, or before there are threads.
+  /// The caller must hold guard_, unless there are no threads yet.
   void note(std::size_t i, Realisation realisation, double seconds, bool restored) {
     fractions_[i] = 1;
     ahead_.emplace(i, std::move(realisation));
@@ -208,7 +214,8 @@ class CaseRun {
     news_.push_back(item);
   }
 
-  /// With several processes, each goes on until all end together.
+  /// Reports progress. With several processes an exception is kept in failure_ until all processes
+  /// end together.
   void talk() {
     try {
       if (!report()) stop_ = true;
@@ -239,10 +246,11 @@ class CaseRun {
 
   StudyResult& result_;
   const StudyRun& run_;
-  const RealisationReport report_;  ///< as it was when the point began
+  const RealisationReport report_;  ///< what the whole run had finished when this point began
   const std::vector<std::uint64_t> seeds_;
-  std::vector<Realisation>& found_ = result_.realisations;  ///< from the first seed on
-  std::map<std::size_t, Realisation> ahead_;                ///< those that wait for an earlier one
+  /// Realisations of the first seeds, without gaps.
+  std::vector<Realisation>& found_ = result_.realisations;
+  std::map<std::size_t, Realisation> ahead_;  ///< realisations that wait for one of an earlier seed
   std::vector<std::atomic<double>> fractions_;
   std::vector<RealisationReport> news_;
   std::atomic<std::size_t> finished_ = 0;
@@ -250,7 +258,7 @@ class CaseRun {
   std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
   std::mutex guard_;
   TaskLoop loop_{{.at_once = 0, .communicator = {}, .talk = [this] { return report(); }}};
-  bool stop_ = false;  // of several processes, as failure_
+  bool stop_ = false;  // stop_ and failure_ are only used with several processes
   std::exception_ptr failure_;
 };
 
@@ -276,8 +284,8 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
     }
   throw InvalidInput(
       parts.folder().string(),
-      fmt::format("none of its {} surfaces belongs to this study; the settings or the program have "
-                  "changed since, restore them or remove the folder",
+      fmt::format("none of its {} surfaces belongs to this study, because the settings or the "
+                  "program have changed; restore them or remove the folder",
                   parts.count()));
 }
 
@@ -287,8 +295,8 @@ Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
   const Progress begun = [&](const ProgressReport&) {
     return !progress || progress({.stage = "realisation"});
   };
-  return analyse_realisation(study_surface(configuration, seed, begun, communicator), configuration, seed,
-                             pressures, progress);
+  return analyse_realisation(study_surface(configuration, seed, begun, communicator), configuration,
+                             seed, pressures, progress);
 }
 
 bool PrecisionRule::met_with(const Realisation& realisation) {
@@ -300,7 +308,7 @@ bool PrecisionRule::met_with(const Realisation& realisation) {
   if (count < std::size_t(configuration_.min_realisations) || !is_milestone(count)) return false;
   const auto precise = [&](const std::vector<double>& values) {
     const EnsembleMean estimate = bootstrap_.mean(values);
-    // No load in the range of the area law: nothing to wait for.
+    // If no load lies in the range of the area law, κ is unknown for any number of surfaces.
     return std::isnan(estimate.mean) ||
            estimate.relative_precision() <= configuration_.target_precision;
   };

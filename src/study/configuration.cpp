@@ -21,8 +21,8 @@
 namespace salebra {
 
 const char* const no_damping_with_adhesion =
-    "is not known with adhesion, where points may be released in another order than they were "
-    "pressed; leave it out, or leave out [adhesion]";
+    "cannot be combined with adhesion, because points may separate in another order than they "
+    "touched and then the loss is not known; leave it out, or leave out [adhesion]";
 
 namespace {
 
@@ -74,7 +74,7 @@ std::vector<std::uint64_t> read_seeds(TomlTable& table) {
   for (const auto seed : given) {
     table.check(seed >= 0, "seeds", fmt::format("{} must be >= 0", seed));
     table.check(known.insert(std::uint64_t(seed)).second, "seeds",
-                fmt::format("{} occurs twice; equal surfaces are no ensemble", seed));
+                fmt::format("{} occurs twice; an ensemble needs different surfaces", seed));
     seeds.push_back(std::uint64_t(seed));
   }
   if (!count.empty()) {
@@ -126,11 +126,12 @@ void read_ensemble(TomlTable& table, StudyConfiguration& configuration) {
   table.require_no_other_keys();
 }
 
-/// A parameter that the ensemble varies need not stand here, and may not.
+/// Reads a parameter that must be given in this table if `list` is empty, and must not be given if
+/// the ensemble varies it by `list`.
 double required_unless(TomlTable& table, const char* key, Dimension dimension,
                        const std::vector<double>& list) {
   if (list.empty()) return table.required_quantity(key, dimension);
-  table.check(!table.has(key), key, "is varied by [ensemble]; give it in one place");
+  table.check(!table.has(key), key, "is varied by [ensemble]; give it in only one of the two");
   return list.front();
 }
 
@@ -150,7 +151,8 @@ SelfAffineParameters read_self_affine(TomlTable& table, const ParameterLists& li
   return spectrum;
 }
 
-/// Two columns of a file: q in rad/m and C in m⁴.
+/// Reads a spectrum from two columns of a file: the wavenumber q in rad/m and the spectral density
+/// C in m⁴.
 SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& folder) {
   const auto columns = read_number_table(folder / *table.text("psd_table"),
                                          spectrum_columns(Dimension::length_to_the_fourth))
@@ -160,7 +162,8 @@ SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& fold
   return psd;
 }
 
-/// twin: the draws that take the place of what the table says of the spectrum; empty: none.
+/// twin: file with the spectra of a surface twin, which replace the spectrum in the table; empty:
+/// none.
 GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
                                  const std::filesystem::path& folder,
                                  const std::filesystem::path& twin) {
@@ -174,7 +177,7 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
                 "psd_table", "has no hurst, rolloff or short_cutoff that [ensemble] could vary");
     surfaces.tables.push_back(read_psd_table(table, folder));
   } else if (table.has("twin")) {
-    table.check(lists.empty(), "twin", "is what it is; [ensemble] has nothing to vary");
+    table.check(lists.empty(), "twin", "fixes the spectrum, so [ensemble] has nothing to vary");
     surfaces.tables = tables_of(read_twin_draws(folder / *table.text("twin")), surfaces.grid);
   } else {
     surfaces.spectrum = read_self_affine(table, lists);
@@ -184,7 +187,8 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
         *method == 0 ? GenerationMethod::filtered_noise : GenerationMethod::random_phase;
   }
   surfaces.seeds = read_seeds(table);
-  // Sizes and points of the ensemble take the place of these: each combination is looked at later.
+  // If the ensemble varies sizes or points, each combination is checked later; this checks the
+  // spectrum on the grid of the table.
   table.located([&] {
     const auto checked = surfaces.spectrum_of_all();
     if (lists.size_x.empty() && lists.points.empty()) checked->require_carried_by(surfaces.grid);
@@ -223,7 +227,8 @@ MeasuredSurface detail::read_measured(TomlTable& table, const std::filesystem::p
 
 namespace {
 
-// What is known of the bodies and of the motion, for the assumptions of the damping.
+// Reads a parameter of the bodies or the motion that only the assumptions of the damping need; NaN
+// if it is not given.
 double read_fact(TomlTable& table, const char* key, Dimension dimension) {
   const auto value = table.quantity(key, dimension);
   if (!value) return ContactParameters::unknown;
@@ -257,7 +262,7 @@ Material read_material(TomlTable table, ContactParameters& known) {
       return Material::of_moduli(*modulus, *tangential);
     }
     table.check(poisson.size() == 1, "poisson",
-                "must be one value, for G* is needed; or give tangential_modulus");
+                "must be one value, because G* is needed; or give tangential_modulus");
     return Material::of_contact_modulus(*modulus, poisson[0]);
   });
 }
@@ -279,7 +284,7 @@ void read_contact(TomlTable table, StudyConfiguration& configuration) {
                                      : table.values("pressures", Dimension::pressure);
   const auto& pressures = configuration.pressures;
   table.check(pressures.size() >= 4, key,
-              fmt::format("{} values are too few; at least 4 make a curve", pressures.size()));
+              fmt::format("{} values given; a curve needs at least 4", pressures.size()));
   for (std::size_t i = 0; i < pressures.size(); ++i) {
     check_positive(table, key, pressures[i]);
     table.check(i == 0 || pressures[i] > pressures[i - 1], key, "must increase");
@@ -328,11 +333,11 @@ void read_adhesion(TomlTable table, StudyConfiguration& configuration) {
     plan.adhesion.potential = *potential;
   plan.cycle = table.values("cycle", Dimension::length);
   table.check(plan.cycle.size() != 1, "cycle",
-              "1 mean gap is no cycle; give several, \"8um:0.1um:24\"");
+              "1 mean gap given; a cycle needs several, such as \"8um:0.1um:24\"");
   for (std::size_t k = 0; k < plan.cycle.size(); ++k) {
     check_positive(table, "cycle", plan.cycle[k]);
     table.check(k == 0 || plan.cycle[k] < plan.cycle[k - 1], "cycle",
-                "must fall: mean gaps from the widest to the closest");
+                "must be mean gaps from the largest to the smallest");
   }
   plan.force_coarse = table.flag("force_coarse").value_or(false);
   table.require_no_other_keys();
@@ -430,7 +435,7 @@ std::string content_of_study(const std::filesystem::path& file) {
 StudyConfiguration parse(const std::string& text, const std::string& name,
                          const std::filesystem::path& folder, const std::filesystem::path& twin) {
   TomlTable root = TomlTable::parse(text, name);
-  // Report a misspelt table as such, not as missing.
+  // Reports a misspelt name of a table as such, before its keys are found to be missing.
   for (const char* table : {"surface", "ensemble", "material", "conduction", "contact", "adhesion",
                             "fit", "damping", "compare"})
     root.table(table);

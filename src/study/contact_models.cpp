@@ -43,7 +43,7 @@ SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) 
   return statistics;
 }
 
-/// The curve of a model that the surface has none for.
+/// The result of a model that cannot describe this surface: no pressure has a converged contact.
 ModelResult no_curve(const ModelWork& work) {
   ModelResult result;
   for (const double pressure : work.pressures)
@@ -51,7 +51,7 @@ ModelResult no_curve(const ModelWork& work) {
   return result;
 }
 
-/// Mean gap by mean gap in and out.
+/// The adhesive loading cycle: approach from one mean gap to the next, then withdrawal.
 AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& contact) {
   const AdhesionPlan& plan = *work.configuration.adhesion;
   std::vector<OperatingPoint> gaps;
@@ -69,7 +69,8 @@ AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& 
   return found;
 }
 
-/// Load by load, each contact from the one before, and the cycle.
+/// Solves the adhesive contacts load by load, each from the pressures of the previous one, and then
+/// the loading cycle.
 ModelResult adhesive_elements(ModelWork& work, const SweepOptions& sweep) {
   const AdhesionPlan& plan = *work.configuration.adhesion;
   ModelResult result = no_curve(work);
@@ -105,9 +106,9 @@ ModelResult boundary_elements(ModelWork& work) {
   realisation.spots.resize(work.pressures.size());
   if (work.configuration.flow_factors) realisation.flow.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
-    realisation.spots[k] = spot_statistics(
-        contact_spots(state.contact_pressure, surface.grid, Boundary::periodic, surface.communicator),
-        surface.grid);
+    realisation.spots[k] = spot_statistics(contact_spots(state.contact_pressure, surface.grid,
+                                                         Boundary::periodic, surface.communicator),
+                                           surface.grid);
     if (work.configuration.flow_factors)
       if (const FlowFactors flow = flow_factors(state, surface.grid); flow.converged())
         realisation.flow[k] = flow;
@@ -164,8 +165,8 @@ ModelResult persson_theory(ModelWork& work) {
   return result;
 }
 
-/// Greenwood and Tripp's two rough sides, equal and independent, whose sum has the moments of the
-/// surface.
+/// Greenwood and Tripp's model. The surface is taken as the sum of two rough surfaces, equal and
+/// independent, so each has half of its spectral moments.
 ModelResult two_rough_sides(ModelWork& work) {
   if (!work.realisation.has_random_summits()) return no_curve(work);
   const SpectralMoments& moments = work.realisation.moments;
@@ -179,7 +180,8 @@ ModelResult two_rough_sides(ModelWork& work) {
   return result;
 }
 
-/// Fuller and Tabor's summits: loads come closer, the pull-off is of summits that are drawn apart.
+/// Fuller and Tabor's model of adhesive summits. Loads are reached by approach; the pull-off
+/// pressure follows from summits that are drawn apart.
 template <SummitAdhesion adhesion>
 ModelResult adhesive_summits(ModelWork& work) {
   if (!work.realisation.has_random_summits() || !work.configuration.adhesion) return no_curve(work);

@@ -9,21 +9,24 @@
 
 namespace salebra::detail {
 
-/// What a contact model presses. It returns its curve, and what only it knows of a ModelResult.
-/// Boundary elements press a surface that is spread over processes; all other models are of
-/// numbers, and computed by the first process.
+/// Input of a contact model. The model returns its force curve and those members of ModelResult
+/// that only this model knows. The boundary-element model presses a surface that may be spread over
+/// processes. All other models need only numbers, and only the first process computes them.
 struct ModelWork {
   const StudyConfiguration& configuration;
   const Surface& surface;
-  const SummitList& summits;                  ///< of all processes, in the first one
-  const std::vector<RoughnessShell>& shells;  ///< of Persson's theory; empty where nobody asked
+  /// The summits of the surface in all processes, gathered in the first one.
+  const SummitList& summits;
+  const std::vector<RoughnessShell>& shells;  ///< for Persson's theory; empty if not requested
   const std::vector<double>& pressures;
-  Realisation&
-      realisation;    ///< has its statistics; boundary elements add spots and marks in the picture
-  Progress progress;  ///< of this model; a stop throws Interrupted or returns anything
+  /// Has the statistics of the surface. The boundary-element model adds its contact patches, and
+  /// marks the cells in contact in the picture.
+  Realisation& realisation;
+  /// Progress of this model. After a stop the model throws Interrupted or returns any result.
+  Progress progress;
 };
 
-/// The modes that the surface has, ring by ring. Collective.
+/// The modes of the surface, grouped in rings of the wavenumber. All processes must call.
 std::vector<RoughnessShell> shells_of(const Surface& surface);
 
 }  // namespace salebra::detail

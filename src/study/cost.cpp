@@ -21,21 +21,28 @@
 namespace salebra {
 namespace {
 
-// Measured on one thread of a server with AVX-512, 24 loads from 5e-4 to 0.2 E*h', surfaces of
-// 256², 512² and 1024² points.
-constexpr double stick_per_cell = 0.15e-6;       // s
-constexpr double growth = 0.15;                  // iterations grow with this power of the cells
-constexpr double interval_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
-constexpr double memory_per_cell = 80;           // bytes
-constexpr double memory_per_cell_stick = 155;    // bytes
-constexpr double memory_of_adhesion = 130;       // bytes
-constexpr double contacts_of_adhesion = 8;       // that one costs, from the one before
-constexpr double surface_per_cell = 24;          // bytes, with its transforms
-constexpr double memory_of_program = 22e6;       // bytes
-constexpr double reference_transform = 0.39e-3;  // s, a pair of 256² in double there
-constexpr double gain_of_a_thread = 0.75;        // where threads share one surface
+// Times and memory per cell of the grid. They were measured on one thread of a server with AVX-512,
+// with 24 loads from 5e-4 to 0.2 E*h' (h': rms slope) and surfaces of 256², 512² and 1024² points.
+constexpr double stick_per_cell = 0.15e-6;  // s, a stick solve
+// The number of iterations grows with this power of the number of cells.
+constexpr double growth = 0.15;
+// Time of a contact inside the oscillation, which starts from the pressures of the previous one, s.
+constexpr double interval_per_cell = 0.15e-6;
+constexpr double memory_per_cell = 80;         // bytes, a contact
+constexpr double memory_per_cell_stick = 155;  // bytes, a contact with a stick solve
+constexpr double memory_of_adhesion = 130;     // bytes, additional for adhesion
+// Number of contacts without adhesion that cost as much as one with adhesion.
+constexpr double contacts_of_adhesion = 8;
+// Memory of a surface with the transforms that generate it, bytes.
+constexpr double surface_per_cell = 24;
+constexpr double memory_of_program = 22e6;  // bytes
+// Time of a forward and backward transform of 256² points on the server named above, s.
+constexpr double reference_transform = 0.39e-3;
+// speed-up by each further thread that shares a contact.
+constexpr double gain_of_a_thread = 0.75;
 
-/// Shortest of a few: what a busy machine adds is not its speed.
+/// Time of a forward and backward Fourier transform of 256² points on this machine, s. Returns the
+/// shortest of nine times, because other programs only make it longer.
 double transform_seconds() {
   constexpr Index n = 256;
   RealFft2D<double> fft(n, n);
@@ -52,14 +59,15 @@ double transform_seconds() {
   return least;
 }
 
-/// Contacts inside the oscillation for each load, those of finer and coarser cells by their size;
-/// mean over the surfaces.
+/// Number of contacts solved inside the oscillation for each load, as a mean over the surfaces. A
+/// contact on finer or coarser cells counts in proportion to its number of cells.
 double intervals_of(const StudyConfiguration& point, const Grid2D& grid) {
   if (point.intervals == 0) return 0;
   const auto of = [&](std::uint64_t seed) {
     const SurfaceDampingOptions options = surface_damping_options(point, grid, seed);
-    // With their stiffnesses, one contact to begin with, and about two to choose the range; on the
-    // first grid of an error three stick solves.
+    // Counts the contacts with their stiffnesses, one contact to begin with, and about two to
+    // choose the range of indentations. On the first grid, if an error is computed, also three
+    // stick solves.
     const double first = options.intervals + 8, others = options.intervals / 2.0 + 5;
     double contacts = options.coarsen           ? first / 4 + others
                       : options.refinements > 0 ? first
@@ -102,8 +110,8 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   return cost;
 }
 
-/// What is kept of a surface until the result is written: its samples, and the spots of each load
-/// by size.
+/// Memory in bytes that a computed surface keeps until the result is written: its samples, and for
+/// each load the numbers of contact patches by size.
 double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
   const auto loads = static_cast<double>(point.pressures.size());
   const auto models = static_cast<double>(point.models.size());
@@ -113,8 +121,8 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }
 
-/// The gain of threads over one with so many contacts to compute side by side: where they are fewer,
-/// threads share them.
+/// Speed-up by threads if this many contacts can be computed in parallel. If there are fewer
+/// contacts than threads, several threads share a contact.
 double gain_of(int threads, std::size_t contacts) {
   const double at_once = std::min(static_cast<double>(contacts), static_cast<double>(threads));
   return at_once + gain_of_a_thread * (threads - at_once);
@@ -145,13 +153,14 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
   return plan;
 }
 
-/// The load as solves feel it: what the contact touches is taken from the measured range.
+/// The load p/(E*h'_rms), limited to the range in which time and memory were measured.
 double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
-constexpr double power_of_load = 0.35;  // iterations grow with it
+// The number of iterations grows with this power of the load.
+constexpr double power_of_load = 0.35;
 
-/// The time of one contact on one thread, on the machine of the constants above, with K and K_t
-/// where they are computed. Those of a study are means over its loads, which solves at 0.0165 E*h'
-/// have; the rest of a solve is the stiffness.
+/// Time of one contact, s, on one thread of the server of the constants above, including K and K_t
+/// if they are computed. The constants are means over the loads of a study; a solve at 0.0165 E*h'
+/// takes this mean time. Without K a solve takes the fraction `without_stiffness` of it.
 double contact_seconds(const SurfaceWork& work, double load) {
   constexpr double mean_load = 0.0165, without_stiffness = 0.5;
   const auto cells = static_cast<double>(work.grid.points());
@@ -159,20 +168,21 @@ double contact_seconds(const SurfaceWork& work, double load) {
                               (work.normal_stiffness ? 1.0 : without_stiffness) +
                           (work.tangential_stiffness ? stick_per_cell : 0);
   const double isolated =
-      work.boundary == Boundary::free ? 2.5 : 1;  // transforms of twice the size
+      // A free boundary needs transforms of twice the size.
+      work.boundary == Boundary::free ? 2.5 : 1;
   return (work.adhesive ? contacts_of_adhesion : 1) * isolated * per_cell * cells *
          std::pow(cells / (512.0 * 512.0), growth) *
          std::pow(felt(load) / mean_load, power_of_load);
 }
 
-/// The time of one contact for what its group sends from machine to machine, counted on one machine
-/// (docs/scaling.md): the transforms' columns and the multilevel kernel's messages.
+/// Time that one contact needs for messages between the machines of its group, s. Counts the bytes
+/// of the columns of the transforms and the messages of the multilevel kernel (docs/scaling.md).
 double network_seconds(const SurfaceWork& work, double load) {
   const double nodes = std::ceil(double(work.nodes) / work.groups),
                ranks = double(work.ranks) / work.groups;
   if (nodes < 2) return 0;
   const auto cells = static_cast<double>(work.grid.points());
-  const double bytes = (work.tangential_stiffness ? 580 : 83) * cells;  // of all transforms
+  const double bytes = (work.tangential_stiffness ? 580 : 83) * cells;  // bytes of all transforms
   const double transforms = work.tangential_stiffness ? 24 : 8;
   const double applications = 77 * std::sqrt(std::sqrt(cells) / 4096) *
                               std::pow(felt(load) / 0.02, power_of_load) *
@@ -185,30 +195,33 @@ double network_seconds(const SurfaceWork& work, double load) {
 }  // namespace
 
 double surface_memory(const SurfaceWork& work) {
-  // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096²
+  // Memory of a process (of_process), and memory per cell (heights and those below), bytes,
+  // measured at 1024², 2048² and 4096² points and loads up to half of E*h'
   // (tests/study/cost_test.cpp).
   constexpr double of_process = 33e6, heights = 8;
   const auto cells = static_cast<double>(work.grid.points());
   const int ranks = std::max(1, work.ranks / work.groups);
   const bool together = ranks > 1, isolated = work.boundary == Boundary::free;
   const double mine = cells / ranks;
-  // Columns on their way to the rows.
+  // To make a surface, a process needs buffers for the columns that it sends and receives.
   if (work.loads.empty()) return of_process + (heights + (together ? 4.5 : 0)) * mine;
   const double load = felt(std::ranges::max(work.loads));
   const double contact = (work.tangential_stiffness ? 56 + 196 * std::sqrt(load) : 43 + 62 * load) +
                          (together && work.normal_stiffness ? 8 : 0) + (isolated ? 36 : 0) +
                          (work.adhesive ? memory_of_adhesion : 0);
-  // What each process makes of the whole grid: the coarser levels of the multilevel kernel, or symbols.
+  // Bytes of what each process holds for the whole grid: the coarser levels of the multilevel
+  // kernel (free boundary) or the symbols of the compliance (periodic).
   const double whole = together ? (isolated ? 4 : 1.5) * cells : 0;
-  // A process that is alone presses a load on each thread.
+  // A single process solves one load on each of its threads; several processes solve one at a time.
   const double at_once =
       work.ranks > 1 ? 1 : double(std::min(work.loads.size(), std::size_t(work.threads)));
   return of_process + (heights + at_once * contact) * mine + whole;
 }
 
 int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits) {
-  // Several numbers of groups let the loads be done in so many rounds; the fewest have the most
-  // processes each.
+  // Each group solves its loads one after the other, in rounds. Tries one round, then two, and so
+  // on. For a number of rounds it takes the smallest number of groups, so that a group has most
+  // processes.
   const std::size_t loads = work.loads.size();
   for (std::size_t rounds = 1; rounds < loads; ++rounds) {
     work.groups = static_cast<int>((loads + rounds - 1) / rounds);
@@ -228,11 +241,13 @@ Cost estimate_cost(const SurfaceWork& work) {
   const double speed = reference_transform / transform_seconds();
   const double ranks = std::max(1, work.ranks / work.groups);
   const double gain = ranks * gain_of(work.threads, 1);
-  constexpr double generation_per_cell = 5e-9;  // s, of one thread
-  // s, of the multilevel kernel, which each process makes as a whole, for a contact and for its stiffness.
+  constexpr double generation_per_cell = 5e-9;  // s, on one thread
+  // Time to set up the multilevel kernel, s per cell, for a contact and for its stiffness. It is
+  // not divided by the number of processes, since each does all of it.
   const double set_up = ranks > 1 ? (work.normal_stiffness ? 2 : 1) * 3.7e-9 : 0;
   const auto cells = static_cast<double>(work.grid.points());
-  // Loads are dealt to the groups; a process alone presses one on each thread.
+  // Each group solves its part of the loads. A single process solves one load on each of its
+  // threads.
   const double gain_of_loads = work.ranks == 1 ? gain_of(work.threads, work.loads.size()) : gain;
   std::vector<double> of_group(static_cast<std::size_t>(work.groups), 0.0);
   for (const double load : work.loads) {
@@ -249,8 +264,8 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
                     std::optional<std::size_t> in_one_process) {
   const auto surfaces =
       static_cast<double>(in_one_process.value_or(detail::seeds_of(point).size()));
-  // As run_ensembles() does: no more surfaces than threads are open, and each thread has a contact
-  // of one of them.
+  // run_ensembles() holds at most as many surfaces as threads at the same time, and each thread
+  // solves a contact of one of them.
   const double open = std::min(surfaces, static_cast<double>(threads));
   const double contacts =
       std::min(surfaces * static_cast<double>(point.pressures.size()), double(threads));
@@ -295,7 +310,8 @@ SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
 
 namespace {
 
-/// The surfaces of a point by several processes: the groups take one each at a time.
+/// Adds the cost of a point of the parameter grid on several processes: each group computes one
+/// surface at a time.
 void add_point(StudyCost& cost, const PointCost& own) {
   const StudyProcesses& all = cost;
   std::vector<double> loads;
@@ -307,7 +323,7 @@ void add_point(StudyCost& cost, const PointCost& own) {
   work.ranks = std::max(1, all.ranks / all.groups);
   work.nodes = std::max(1, std::min(all.nodes / all.groups, work.ranks));
   work.groups = 1;
-  // The contacts inside the oscillation take the time, and the exchange, of so many more.
+  // The contacts inside the oscillation multiply the time and the messages of the sweep of loads.
   const double sweep = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell +
                        (work.tangential_stiffness ? stick_per_cell : 0);
   const double more = 1 + interval_per_cell * own.intervals / sweep;
@@ -344,7 +360,7 @@ StudyCost estimate_cost(const StudyConfiguration& configuration, const StudyProc
 
 ShardPlan plan_shards(const StudyCost& cost, double seconds) {
   require_positive(seconds, "shard_seconds");
-  // Fewer cannot do: this is the work of all threads, divided evenly.
+  // Begins with a lower limit of the number of shards: the work of all threads, divided evenly.
   const std::size_t most = cost.surfaces();
   double work = 0;
   for (const PointCost& point : cost.points) work += point.seconds;
@@ -352,7 +368,8 @@ ShardPlan plan_shards(const StudyCost& cost, double seconds) {
   std::size_t shards = std::max<std::size_t>(1, static_cast<std::size_t>(fewest));
   ShardPlan plan = plan_of(cost, shards);
   while (plan.seconds > seconds && shards < most) {
-    // By a hundredth at a time, so that planning takes no time with many surfaces.
+    // Increases the number by a hundredth at a time, so that planning stays fast with many
+    // surfaces.
     shards = std::min(most, shards + std::max<std::size_t>(1, shards / 100));
     plan = plan_of(cost, shards);
   }

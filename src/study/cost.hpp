@@ -12,20 +12,21 @@
 
 namespace salebra {
 
-/// What one point of a study's parameter grid would do.
+/// Expected work at one point of a study's parameter grid.
 struct PointCost {
-  StudyConfiguration configuration;  ///< its ensemble lists are empty
+  StudyConfiguration configuration;  ///< of this point; its lists of varied parameters are empty
   Grid2D grid;
   double contact_scale = 0;       ///< E*h'_rms, Pa
   std::vector<double> pressures;  ///< Pa
   std::size_t surfaces = 0;
-  /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as
-  /// they are; without the halvings that a relative error may ask for beyond the first.
+  /// Number of contacts inside the oscillation for each load and surface, in units of contacts on
+  /// the given cells; without the halvings that a relative error may need beyond the first.
   double intervals = 0;
-  double seconds = 0;  ///< of one thread, all surfaces
-  double memory = 0;   ///< of one surface, bytes
-  std::vector<std::string>
-      warnings;  ///< of the generator: what the grid does to the spectrum; StudyLoads::doubts
+  double seconds = 0;  ///< on one thread, for all surfaces
+  double memory = 0;   ///< needed by one surface, bytes
+  /// Warnings of the surface generator about the effect of the grid on the spectrum, and
+  /// StudyLoads::warnings.
+  std::vector<std::string> warnings;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<PointCost>) {
@@ -39,24 +40,27 @@ constexpr void describe(auto&& visit, std::type_identity<PointCost>) {
   visit(&S::warnings, Quantity{"warnings", dimensionless, "warnings"});
 }
 
-/// Processes that share a study, StudyRun::groups.
+/// Processes that share the work on a study; `groups` is explained at StudyRun::groups.
 struct StudyProcesses {
-  int ranks = 1, nodes = 1;  ///< and the machines that they share evenly
+  /// Number of processes, and of machines among which they are divided evenly.
+  int ranks = 1, nodes = 1;
   int groups = 1;
 };
 
-/// What work would cost on machines like this one.
+/// Estimated cost of work on machines like the present one.
 struct Cost : StudyProcesses {
-  int threads = 1;             ///< of each process
-  double seconds = 0;          ///< wall time on idle machines; with a precision, the most
-  double network_seconds = 0;  ///< of it for what goes from machine to machine
-  double memory = 0;           ///< peak of the process that takes most, bytes
-  double available = 0;        ///< memory of this machine, bytes; 0 where it does not say
+  int threads = 1;  ///< per process
+  /// Wall time on idle machines; if a precision is requested, the longest possible time.
+  double seconds = 0;
+  double network_seconds = 0;  ///< part of `seconds` in which machines exchange messages
+  double memory = 0;           ///< largest memory of one process, bytes
+  double available = 0;        ///< memory of the present machine, bytes; 0 if unknown
 
   double memory_of_all() const { return memory * ranks; }
   double memory_of_node() const { return memory * std::ceil(double(ranks) / nodes); }
 
-  /// Assumed between machines, bytes/s, half of an adapter of 200 Gb/s, and of a message, s.
+  /// Assumed network between machines: bandwidth in bytes/s (half of a 200 Gb/s adapter), and
+  /// latency of a message in s.
   static constexpr double bandwidth = 12.5e9, latency = 2e-6;
 };
 
@@ -74,8 +78,8 @@ constexpr void describe(auto&& visit, std::type_identity<Cost>) {
   visit(&S::available, Quantity{"available_memory_bytes", dimensionless, "memory that is free"});
 }
 
-/// What a study would cost before anything of it is computed: its memory is that of the surfaces
-/// that are side by side, and of the program.
+/// Estimated cost of a study before anything is computed. Its memory is that of the program and of
+/// the surfaces that are computed at the same time.
 struct StudyCost : Cost {
   std::vector<PointCost> points;
 
@@ -92,60 +96,66 @@ constexpr void describe(auto&& visit, std::type_identity<StudyCost>) {
   describe(visit, std::type_identity<Cost>{});
 }
 
-/// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the
-/// surfaces that are side by side on this many threads, and what is kept of all of them. grid: of
-/// one surface. surfaces: that one process computes; empty: all of the point.
+/// Largest memory of run_ensembles() at one point of the parameter grid, bytes: the program, the
+/// surfaces that are computed at the same time on `threads` threads, and the results of all
+/// surfaces. grid: of one surface. surfaces: number that one process computes; empty: all surfaces
+/// of the point.
 double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads,
                     std::optional<std::size_t> surfaces = {});
 
-/// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell:
-/// measured once on a server, for surfaces of 256² to 1024² points and loads up to 0.2 E*h', and
-/// scaled by how long one Fourier transform takes here. Good to a factor of two for studies, of
-/// three with interacting summits. Of several processes as estimate_cost(SurfaceWork) has it.
+/// Counts the contacts of run_ensembles() and multiplies them by the time of a contact per cell.
+/// This time was measured once on a server, for surfaces of 256² to 1024² points and loads up to
+/// 0.2 E*h' (h': rms slope). It is scaled by the time of one Fourier transform on the present
+/// machine. The estimate agrees within a factor of two for studies, and of three with interacting
+/// summits. The cost of several processes is that of estimate_cost(SurfaceWork).
 /// throws  as parameter_combinations(), and as readers do for a measured surface, which is read;
 ///         InvalidInput unless there is at least one process on each machine and in each group
-/// cost    some milliseconds, and the reading of a measured surface
+/// cost    some milliseconds, and the time to read a measured surface
 StudyCost estimate_cost(const StudyConfiguration& configuration,
                         const StudyProcesses& processes = {});
 
-/// One surface that one process, or several together, make and press.
+/// Work on one surface: one or several processes make it and press it.
 struct SurfaceWork {
   Grid2D grid;
-  std::vector<double> loads;  ///< of its contacts, p/(E*h'_rms); none: it is made only
-  bool normal_stiffness = false, tangential_stiffness = false;  ///< K; K_t by stick solves
+  std::vector<double> loads;  ///< p/(E*h'_rms) of its contacts; empty: the surface is only made
+  /// Compute K; compute K_t by stick solves.
+  bool normal_stiffness = false, tangential_stiffness = false;
   bool adhesive = false;
   Boundary boundary = Boundary::periodic;
-  int ranks = 1, nodes = 1;  ///< processes, and the machines that they share evenly
-  int groups = 1;   ///< of processes, each of which holds the surface and presses some of the loads
-  int threads = 1;  ///< of each process
+  /// Number of processes, and of machines among which they are divided evenly.
+  int ranks = 1, nodes = 1;
+  /// Groups of processes; each group holds the surface and presses some of the loads.
+  int groups = 1;
+  int threads = 1;  ///< per process
 };
 
-/// Time as estimate_cost() of a study has it, shared evenly, with the exchange between machines as
-/// docs/scaling.md models it. Memory as it was measured for one to sixteen processes, true to 15 %.
-/// Neither has the reading and writing of files.
-/// throws InvalidInput unless there is at least one process on each machine and in each group
-/// cost   some milliseconds
+/// Estimated cost of work on one surface. The time is that of estimate_cost() of a study, divided
+/// evenly among the processes, plus the exchange between machines by the model of docs/scaling.md.
+/// The memory follows measurements with one to sixteen processes, accurate to 15 %. Reading and
+/// writing files is not included.
+/// throws  InvalidInput unless there is at least one process on each machine and in each group
+/// cost    some milliseconds
 Cost estimate_cost(const SurfaceWork& work);
 
-/// Its memory alone.
+/// Largest memory of one process, bytes.
 double surface_memory(const SurfaceWork& work);
 
-/// The contacts of one surface of a study, which each group of processes presses at all of these
-/// loads.
+/// The work on one surface of a study. Each group of processes presses all of these loads.
 SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
                          const std::vector<double>& loads, const StudyProcesses& processes);
 
-/// The most groups that are of use, whose surfaces fit into memory: exchange between processes is
-/// what does not get faster with more of them. fits: whether each process may take so many bytes. 1
-/// where nothing does.
+/// The largest useful number of groups for which `work` fits into memory. With more groups each
+/// group has fewer processes and exchanges less, which saves time since more processes do not
+/// exchange faster. fits: returns whether each process may take this many bytes. Returns 1 if
+/// nothing fits.
 int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits);
 
-/// A study divided among processes of cost.threads threads each.
+/// A study divided into shards, each computed by one process with cost.threads threads.
 struct ShardPlan {
   std::size_t shards = 1;
-  std::size_t surfaces = 0;  ///< of the largest shard
-  double seconds = 0;        ///< wall time of the longest shard on an idle machine
-  double memory = 0;         ///< peak of a shard, bytes
+  std::size_t surfaces = 0;  ///< number of surfaces of the largest shard
+  double seconds = 0;        ///< wall time of the slowest shard on an idle machine
+  double memory = 0;         ///< largest memory of a shard, bytes
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ShardPlan>) {
@@ -157,8 +167,8 @@ constexpr void describe(auto&& visit, std::type_identity<ShardPlan>) {
   visit(&S::memory, Quantity{"memory_bytes", dimensionless, "memory of a shard"});
 }
 
-/// The fewest shards none of which takes longer than that; one for each surface where even these
-/// do.
+/// The smallest number of shards of which none takes longer than `seconds`. If even shards of one
+/// surface take longer, returns one shard per surface.
 ShardPlan plan_shards(const StudyCost& cost, double seconds);
 
 }  // namespace salebra

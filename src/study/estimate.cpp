@@ -14,7 +14,8 @@
 namespace salebra {
 namespace {
 
-// Generators, Monte Carlo ensembles and resampling share seeds but no stream.
+// Surface generators, Monte Carlo ensembles and bootstrap resampling may use the same seed. This
+// number gives the resampling random numbers of its own.
 constexpr std::uint32_t bootstrap_stream = 0xb0075;
 
 std::vector<double> known(const std::vector<double>& values) {
@@ -26,7 +27,7 @@ std::vector<double> known(const std::vector<double>& values) {
 
 struct Moments {
   double mean = 0;
-  double deviation = 0;  ///< of a single value, divisor n − 1
+  double deviation = 0;  ///< standard deviation of a single value, with the divisor n − 1
 };
 
 Moments moments_of(const std::vector<double>& values) {
@@ -39,7 +40,8 @@ Moments moments_of(const std::vector<double>& values) {
   return result;
 }
 
-/// Linear between order statistics; sorts no more than it has to.
+/// Quantile of values, linear between neighbouring values in order of size. Sorts no more than
+/// necessary.
 double quantile(std::vector<double>& values, double probability) {
   const double position = probability * (double(values.size()) - 1);
   const auto below = static_cast<std::ptrdiff_t>(position);
@@ -57,7 +59,8 @@ double EnsembleMean::relative_precision() const { return (high - low) / 2 / std:
 
 namespace {
 
-/// The mean, and Student's interval about it of what scatters `divisor` times less than a value.
+/// The mean of the values, and Student's 95 % interval of a quantity whose standard deviation is
+/// that of a single value divided by `divisor`.
 EnsembleMean student(const std::vector<double>& kept, double divisor) {
   EnsembleMean estimate;
   if (kept.empty()) return estimate;
@@ -99,11 +102,11 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   if (kept.size() < std::size_t(min_bootstrap_count)) return student_mean(kept);
   const Moments sample = moments_of(kept);
   EnsembleMean estimate{sample.mean, sample.mean, sample.mean};
-  // Equal up to round-off: there is no scatter to resample.
+  // If all values are equal up to round-off, every resample has the same mean.
   if (sample.deviation <= 1e-14 * std::abs(sample.mean)) return estimate;
   std::vector<double> statistics(static_cast<std::size_t>(resamples_));
   const auto count = std::int32_t(kept.size());
-  // Draws are computed where they are needed: a table of them would take 8 kB for each value.
+  // Draws random numbers when they are needed; a table of them would take 8 kB per value.
   const auto resample_slab = [&](Index begin, Index end) {
     std::vector<std::int32_t> positions(kept.size());
     std::vector<double> resample(kept.size());
@@ -113,8 +116,8 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
                              [&](std::int32_t position) { return kept[std::size_t(position)]; });
       const Moments drawn = moments_of(resample);
       const double shift = drawn.mean - sample.mean;
-      // A resample of one value over and over knows no scatter; it belongs to the tail on its side.
-      // √n stands on both sides and is left out.
+      // A resample that repeats a single value has no scatter; the limit of the divisor puts it
+      // into the tail on its side. The factor √n of t* cancels in the limits and is left out.
       statistics[std::size_t(number)] = shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
     }
   };

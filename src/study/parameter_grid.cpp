@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Configurations of all combinations of varied parameters, and their descriptions.
+// Configurations of all combinations of varied parameters, and short descriptions of them.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,7 +12,8 @@
 namespace salebra {
 namespace {
 
-/// `configurations` once for each value, with the change made; as they are for no values.
+/// Replaces the list of configurations by copies of it, one for each value, in which
+/// change(configuration, value) was made. Without values the list stays as it is.
 template <class Value, class Change>
 void vary(std::vector<StudyConfiguration>& configurations, const std::vector<Value>& values,
           Change change) {
@@ -28,7 +29,8 @@ void vary(std::vector<StudyConfiguration>& configurations, const std::vector<Val
 
 constexpr double max_points = 1e4, max_bytes = 256e6;
 
-/// Before any combination is made: three lists of 2000 values are 8e9 combinations.
+/// Throws if there are too many combinations. Counts them before any is made: three lists of 2000
+/// values have 8e9 combinations.
 void require_countable(const StudyConfiguration& configuration) {
   const ParameterLists& lists = configuration.ensemble;
   double points = 1;
@@ -42,19 +44,19 @@ void require_countable(const StudyConfiguration& configuration) {
   if (points > 1 && (points > max_points || points * each > max_bytes))
     throw InvalidInput(
         "ensemble",
-        fmt::format(
-            "its lists make {:.0f} combinations, whose settings would take "
-            "{:.3g} MB; at most {:.0f} combinations and {:.0f} MB are allowed; split the study",
-            points, points * each / 1e6, max_points, max_bytes / 1e6));
+        fmt::format("its lists make {:.0f} combinations with {:.3g} MB of settings; at most {:.0f} "
+                    "combinations and {:.0f} MB are allowed; split the study",
+                    points, points * each / 1e6, max_points, max_bytes / 1e6));
 }
 
 Index scaled(Index count, double factor, double size) {
   const double wanted = double(count) * factor;
   const auto whole = Index(std::llround(wanted));
-  require(whole >= 2 && std::abs(wanted - double(whole)) < 1e-6 * wanted, "size_x", size,
-          fmt::format("m would need {} points for cells of the same size; use a size that takes "
-                      "whole numbers",
-                      wanted));
+  require(
+      whole >= 2 && std::abs(wanted - double(whole)) < 1e-6 * wanted, "size_x", size,
+      fmt::format(
+          "m would need {} points for cells of the same size; use a size that gives a whole number",
+          wanted));
   return whole;
 }
 
@@ -66,7 +68,7 @@ std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration&
   points.front().ensemble = {};
   if (lists.empty()) return points;
   require(std::holds_alternative<GeneratedSurfaces>(configuration.surfaces), "ensemble",
-          "parameters", "belong to generated surfaces; a measured one is what it is");
+          "parameters", "apply only to generated surfaces; a measured surface cannot be varied");
   require_countable(configuration);
   vary(points, lists.hurst, [](GeneratedSurfaces& s, double value) { s.spectrum.hurst = value; });
   vary(points, lists.rolloff,

@@ -30,7 +30,7 @@ bool is_realisation(const std::filesystem::path& file) {
 
 std::string name_of(std::uint64_t key) { return fmt::format("{:016x}{}", key, suffix); }
 
-/// keys: in ascending order.
+/// Returns whether the name of the file is one of the keys, which must be in ascending order.
 bool is_one_of(const std::filesystem::path& file, std::span<const std::uint64_t> keys) {
   std::uint64_t key = 0;
   const std::string stem = file.stem().string();
@@ -44,7 +44,8 @@ std::string host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// Passes by the removal of damaged files.
+/// An error class of its own: a part computed with another arithmetic is refused, and not removed
+/// as damaged.
 class OtherArithmetic : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;
@@ -58,8 +59,8 @@ std::filesystem::path created(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// What killed processes left, half-written files or claims. Only for the one that has the folder
-/// alone.
+/// Removes the files that killed processes left in a folder: half-written files or claims. Only a
+/// process that uses the folder alone may call this. beginning: of the names of these files.
 void remove_abandoned(const std::filesystem::path& folder, const std::string& beginning,
                       const char* extension = ".part") {
   std::vector<std::filesystem::path> abandoned;
@@ -95,7 +96,7 @@ struct StudyParts::State {
 StudyParts::StudyParts(const std::filesystem::path& folder, Use use, const std::string& shard)
     : state_(std::make_unique<State>(folder, use, shard)) {
   if (use == Use::shard) return;
-  // The result beside the folder may have been cut off too, and so may its page.
+  // The result file next to the folder, and its report page, may also be half-written.
   const std::filesystem::path parent = folder.parent_path(), result = folder.stem();
   remove_abandoned(folder, ".");
   remove_abandoned(folder, "", detail::claim_suffix);
@@ -108,7 +109,7 @@ StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
   if (!resume && count() > 0) {
     throw InvalidInput(folder.string(),
                        fmt::format("holds {} finished surfaces of an earlier run; continue with "
-                                   "them by `resume`, or remove the folder to begin anew",
+                                   "`resume`, or remove the folder to start again",
                                    count()));
   }
 }
@@ -126,7 +127,7 @@ StudyParts::~StudyParts() {
   state_->lock.reset();
   if (state_->use == Use::shard) return;
   std::error_code ignored;
-  std::filesystem::remove(state_->folder, ignored);  // only an empty one
+  std::filesystem::remove(state_->folder, ignored);  // removes the folder only if it is empty
 }
 
 const std::filesystem::path& StudyParts::folder() const { return state_->folder; }
@@ -160,9 +161,9 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
     if (state_->use == Use::resume && record.origin.arithmetic != arithmetic())
       throw OtherArithmetic(
           state_->folder.string(),
-          fmt::format("its surfaces were computed by {}, and this program computes by {}: their "
-                      "last digits differ; resume where the study was begun, or remove the folder "
-                      "to begin anew",
+          fmt::format("its surfaces were computed with {}, but this program computes with {}, so "
+                      "the last digits differ; resume on the machine where the study was started, "
+                      "or remove the folder to start again",
                       record.origin.arithmetic, arithmetic()));
     state_->origins.push_back(std::move(record.origin));
     return std::move(record.realisation);
@@ -178,10 +179,10 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
 void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
   const bool shared = state_->use == Use::shard;
   if (shared && !std::filesystem::exists(state_->folder))
-    throw IoError(fmt::format(
-        "{}: was removed while this shard ran, as when the study is merged or begun anew; if it "
-        "is not finished, run the shard again",
-        state_->folder.string()));
+    throw IoError(
+        fmt::format("{}: was removed while this shard ran, as happens when the study is merged or "
+                    "started again; if the study is not finished, run the shard again",
+                    state_->folder.string()));
   try {
     detail::AtomicFile file(state_->file(key), {.overwrite = true});
     file.write(detail::encode({{.version = std::string(version()),
@@ -192,9 +193,9 @@ void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
                               key));
     file.commit();
   } catch (const IoError& error) {
-    throw IoError(fmt::format("{}; the surfaces finished before are kept: make room and {}",
-                              error.what(),
-                              shared ? "run the shard again" : "continue with `resume`"));
+    throw IoError(
+        fmt::format("{}; the surfaces finished before are kept: free some disk space and {}",
+                    error.what(), shared ? "run the shard again" : "continue with `resume`"));
   }
 }
 

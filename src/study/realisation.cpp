@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <optional>
 #include <salebra/analysis/slip.hpp>
 #include <salebra/base/error.hpp>
@@ -13,65 +12,23 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "base/memory.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
+#include "surface/gather_summits.hpp"
+#include "surface/seam_step.hpp"
 
 namespace salebra {
 namespace {
 
-/// Root mean square of the steps between opposite edges, which a periodic continuation turns into
-/// cliffs.
-double seam_step(const Surface& surface) {
-  const Field& h = surface.heights;
-  const Index nx = surface.grid.nx, ny = surface.grid.ny;
-  const RowPartition rows = surface.partition();
-  const auto square = [](double step) { return step * step; };
-  const double along_y = parallel::sum_blocks(rows, [&](Index begin, Index end) {
-    double sum = 0;
-    for (Index row = begin; row < end; ++row) sum += square(h(row, 0) - h(row, ny - 1));
-    return sum;
-  });
-  std::vector<std::byte> first_buffer, last_buffer;
-  const auto row = [&](Index at, std::vector<std::byte>& buffer) {
-    const auto bytes = static_cast<std::size_t>(ny) * sizeof(double);
-    const RowExchange to_all(
-        rows, [at](int) { return RowExchange::Window{at, 1}; }, RowExchange::Edge::none);
-    return static_cast<const double*>(to_all.fetch(h.data(), bytes, bytes, buffer).front());
-  };
-  const double *first = row(0, first_buffer), *last = row(nx - 1, last_buffer);
-  double along_x = 0;
-  for (Index iy = 0; iy < ny; ++iy) along_x += square(first[iy] - last[iy]);
-  return std::sqrt((along_x / double(ny) + along_y / double(nx)) / 2);
-}
-
-/// The summits of all processes, in the order of one process, in the first of them.
-SummitList gathered(SummitList list, const Grid2D& grid) {
-  const Communicator& communicator = list.communicator;
-  if (communicator.alone()) return list;
-  std::vector<Index> begins{0};
-  for (const std::string& count : communicator.gather_all(std::to_string(list.summits.size())))
-    begins.push_back(begins.back() + std::stoll(count));
-  static_assert(std::is_trivially_copyable_v<Summit> && sizeof(Summit) % sizeof(double) == 0);
-  constexpr Index width = sizeof(Summit) / sizeof(double);
-  require_memory(grid, communicator.is_root() ? 3.0 * double(begins.back()) * sizeof(Summit) : 0,
-                 "all summits in the first process", communicator);
-  Field mine(Index(list.summits.size()), width);
-  std::memcpy(mine.data(), list.summits.data(), list.summits.size() * sizeof(Summit));
-  const Field all = gathered(RowPartition(communicator, begins), mine);
-  SummitList whole{std::vector<Summit>(std::size_t(all.rows())), list.searched_area};
-  std::memcpy(static_cast<void*>(whole.summits.data()), all.data(),
-              whole.summits.size() * sizeof(Summit));
-  return whole;
-}
-
-// Below, single contacts of a few cells decide; above, the law is no longer linear.
+// Range of p/(E*h') for the fit of the area law. Below it, single contact patches of a few cells
+// decide the area; above it, the area is no longer proportional to the load.
 constexpr double area_slope_from = 0.002, area_slope_to = 0.05;
 
-/// κ of A/A0 = κ p/(E*h') over the loads for which that is a law.
+/// The area slope κ of A/A0 = κ p/(E*h') (A/A0: contact area fraction), fitted to the loads between
+/// area_slope_from and area_slope_to. scale: E*h', Pa.
 double area_slope(const std::vector<double>& pressures, const std::vector<double>& areas,
                   double scale) {
   double product = 0, square = 0;
@@ -84,7 +41,7 @@ double area_slope(const std::vector<double>& pressures, const std::vector<double
   return product / square;
 }
 
-/// α of K = αF/h_rms over the window.
+/// The coefficient α of K = αF/h_rms, fitted to the loads in the window.
 double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& window) {
   double product = 0, square = 0;
   for (const ForceSample& sample : curve.samples) {
@@ -108,7 +65,7 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
   try {
     curve_law.emplace(model.curve, modulus_ratio);
   } catch (const InvalidInput&) {
-    // Too few samples for a law: nothing to lose energy by.
+    // Too few samples converged for a contact law, so no loss is known.
   }
   DampingOptions small = configuration.damping;
   small.amplitude = Amplitude::small;
@@ -119,29 +76,30 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     point.force = sample.force;
     points.push_back(point);
     if (adhesive || !sample.converged || !(sample.force > 0)) continue;
-    const OperatingPoint point = at_force(sample.force);
+    const OperatingPoint held = at_force(sample.force);
     if (fitted_law) {
-      const auto by_law = relaxation_damping(*fitted_law, point, configuration.motion, small);
+      const auto by_law = relaxation_damping(*fitted_law, held, configuration.motion, small);
       point.work_per_cycle_closed_form = by_law.work_per_cycle;
       point.damping_constant_closed_form = by_law.damping_constant;
     }
     if (curve_law) {
       try {
-        const auto by_curvature =
-            relaxation_damping(*curve_law, point, configuration.motion, small);
+        const auto by_curvature = relaxation_damping(*curve_law, held, configuration.motion, small);
         point.small_amplitude_work = by_curvature.work_per_cycle;
         point.small_amplitude_damping_constant = by_curvature.damping_constant;
         auto by_curve =
-            relaxation_damping(*curve_law, point, configuration.motion, configuration.damping);
+            relaxation_damping(*curve_law, held, configuration.motion, configuration.damping);
         if (by_curve.converged) {
-          // Slip may reach below the curve: the loss without slip stays.
+          // First sets the loss without slip. With friction add_slip() may throw, because slip
+          // reaches indentations below the curve; then only this loss without slip stays.
           static_cast<Loss&>(point) = by_curve;
           if (!std::isnan(configuration.known.friction_coefficient)) point.forget();
           add_slip(by_curve, *curve_law, motion_of(configuration.motion), configuration.known);
           static_cast<Loss&>(point) = by_curve;
         }
       } catch (const InvalidInput&) {
-        // Near its ends the curve does not cover the whole cycle: no value there.
+        // A cycle at the first or last loads of the curve leaves its range, so the loss stays
+        // unknown.
       }
     }
     points.back() = point;
@@ -149,7 +107,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
   return points;
 }
 
-/// Boundary elements: contacts inside the oscillation in place of the curve between its loads.
+/// In the result of the boundary-element model, replaces losses computed from the curve by losses
+/// from contacts solved inside the oscillation.
 void resolve_damping(ModelResult& result, const Surface& surface,
                      const StudyConfiguration& configuration, std::uint64_t seed,
                      const Progress& progress) {
@@ -159,7 +118,8 @@ void resolve_damping(ModelResult& result, const Surface& surface,
   options.excursion = configuration.known.excursion;
   const std::vector<SurfaceDamping> resolved =
       surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
-  // One surface has no other number to average with.
+  // In a mean over surfaces large errors average out. A study of a single surface drops a loss that
+  // does not exceed its error.
   const bool alone = detail::seeds_of(configuration).size() == 1;
   const bool known = why_loss_unknown(motion_of(configuration.motion), configuration.known).empty();
   for (std::size_t k = 0; k < resolved.size(); ++k) {
@@ -178,7 +138,8 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
                     converged, curve.samples.size(), configuration.tolerance));
 }
 
-/// The surface that the models press: after the first loading, where a hardness is known.
+/// The surface that the models press. If a hardness is known, this is the surface that the first
+/// loading leaves behind.
 ResidualSurface first_loaded(Surface surface, const StudyConfiguration& configuration,
                              double max_pressure, const Progress& progress) {
   if (std::isnan(configuration.known.hardness)) return {.surface = std::move(surface)};
@@ -197,7 +158,7 @@ ResidualSurface first_loaded(Surface surface, const StudyConfiguration& configur
   return residual;
 }
 
-/// The surface in numbers, before it is pressed.
+/// The statistics of a surface after the first loading and before it is pressed by the models.
 Realisation described(const ResidualSurface& loaded, const SummitList& summits) {
   const Surface& surface = loaded.surface;
   Realisation realisation;
@@ -206,7 +167,7 @@ Realisation described(const ResidualSurface& loaded, const SummitList& summits) 
   realisation.heights = height_statistics(surface);
   realisation.periodic = surface.periodic;
   if (!surface.periodic)
-    realisation.seam_step = seam_step(surface) / realisation.heights.rms_height;
+    realisation.seam_step = detail::seam_step(surface) / realisation.heights.rms_height;
   realisation.moments = surface_moments(surface);
   realisation.summits = summit_statistics(summits);
   if (realisation.has_random_summits()) {
@@ -217,8 +178,8 @@ Realisation described(const ResidualSurface& loaded, const SummitList& summits) 
   return realisation;
 }
 
-/// What can be said of a model's curve. One that has too few samples in the window has no decay
-/// length, and no loss by Eq. (16).
+/// Fits an exponential law to the curve of a model and tests it. With too few samples in the window
+/// there is no decay length, and no loss by Eq. (16). scale: E*h', Pa.
 void analyse(ModelResult& result, const StudyConfiguration& configuration, double scale) {
   constexpr double unknown = ForceSample::unknown;
   const ForceCurve& curve = result.curve;
@@ -287,7 +248,7 @@ const ModelResult& Realisation::of(ContactModel model) const {
   const auto found = std::ranges::find(models, model, &ModelResult::model);
   if (found == models.end())
     throw InvalidInput("model", fmt::format("'{}'", name_of(model)),
-                       "was not computed; ask for it in the configuration");
+                       "was not computed; request it in the configuration");
   return *found;
 }
 
@@ -318,7 +279,7 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configu
   Realisation realisation = described(loaded, summits);
   realisation.seed = seed;
   if (configuration.has(ContactModel::gw_deterministic))
-    summits = gathered(std::move(summits), surface.grid);
+    summits = detail::gathered(std::move(summits), surface.grid);
   const double scale = configuration.material.contact_modulus * realisation.moments.rms_slope();
   if (wants_picture(configuration, seed)) {
     realisation.picture = picture_of(surface, configuration);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Binary record of a realisation with its key and checksum.
+// Binary record of a realisation, with its key and a checksum.
 #include "realisation_record.hpp"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view magic = "salebra realisation 13\n";
 
-/// Checksum of a file; 0 where there is none.
+/// Checksum of a file; 0 if the file does not exist.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
 }
@@ -40,7 +40,9 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
                       measured.transpose, measured.pixel_size, measured.lateral_unit,
                       measured.despike, measured.crop, measured.fill, measured.channel);
   }
-  // The first of several surfaces states the error of all.
+  // The last two entries say whether the surface is the only one, and whether it is the first. A
+  // study of one surface drops uncertain losses, and the first of several surfaces computes the
+  // numerical error for all.
   bytes += bytes_of(point.material, point.pressures, point.relative_pressures, point.tolerance,
                     point.stick, point.flow_factors, point.window, point.models, point.adhesion,
                     point.known.hardness, point.known.friction_coefficient, point.known.excursion,

@@ -10,25 +10,25 @@
 
 namespace salebra::detail {
 
-/// A number for everything that decides the realisation: the point's configuration, the seed, and
-/// the program's version. What does not (other seeds, precision, comments) is not in it.
-/// The key of everything that decides the result of a study with these points.
+/// Hash of all input that affects the result of a study with these points of the parameter grid.
 std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
 
+/// Hash of all input that affects a realisation: the configuration of the point, the seed, and the
+/// version of the program. The other seeds, the requested precision and comments do not affect it.
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed);
 
-/// A realisation and where it was computed.
+/// A realisation, and where and how it was computed.
 struct Record {
   PartOrigin origin;
   Realisation realisation;
 };
 
-/// Every bit of a record with its key and a checksum; for this machine's byte order.
+/// Encodes a record bit for bit, with its key and a checksum, in the byte order of this machine.
 std::string encode(const Record& record, std::uint64_t key);
-/// Throws InvalidInput for anything but what encode() made with this key.
+/// Decodes a record. Throws InvalidInput for anything that encode() did not make with this key.
 Record decode(std::string_view bytes, std::uint64_t key);
-/// The origin of what encode() made with any key; empty for anything else, such as the record of
-/// another version whose form differs.
+/// Returns the origin in a record that encode() made with any key; empty for anything else, such as
+/// a record that another version wrote in another form.
 std::optional<PartOrigin> origin_of(std::string_view bytes);
 
 }  // namespace salebra::detail

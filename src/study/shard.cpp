@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run of one shard of a study: its surfaces, claims on them, and the text that names it.
+// Run of one shard of a study: the surfaces that it computes, its claims on them, and the text that
+// names a shard.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,31 +29,30 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One point of the parameter grid.
 struct Point {
   Point(const StudyConfiguration& point, std::vector<double> loads)
       : configuration(point), pressures(std::move(loads)), rule(configuration) {}
 
   const StudyConfiguration& configuration;
   std::vector<double> pressures;
-  std::vector<std::uint64_t> keys;  ///< in the order of the seeds
+  std::vector<std::uint64_t> keys;  ///< keys of the realisations, in the order of the seeds
   detail::PrecisionRule rule;
-  std::size_t prefix = 0;  ///< so many were shown to the rule
+  std::size_t prefix = 0;  ///< number of surfaces that `rule` has taken so far
   std::size_t limit = std::numeric_limits<std::size_t>::max();
 };
 
-/// A surface of the study.
 struct Item {
   std::size_t point = 0;
-  std::size_t index = 0;  ///< of its seed
+  std::size_t index = 0;  ///< index of `seed` in the list of seeds
   std::uint64_t seed = 0;
   std::uint64_t key = 0;
 };
 
 struct Taken {
   Item item;
-  std::size_t slot = 0;                      ///< where its progress goes
-  std::unique_ptr<detail::StudyLock> claim;  ///< of Shard::any()
+  std::size_t slot = 0;  ///< index of its progress in fractions_
+  /// Lock file while it is computed; only used by Shard::any().
+  std::unique_ptr<detail::StudyLock> claim;
 };
 
 class ShardRun {
@@ -78,8 +78,8 @@ class ShardRun {
   ShardOutcome run() {
     drop_present();
     require_disk_space();
-    // A claim that holds now may be void when a thread has ended its surface: each looks for
-    // another until there is none.
+    // When a thread has finished its surface, another process may have ended and left its claim. So
+    // each thread looks for another surface until none is left.
     loop_.run(std::max(Index(pending_.size()), Index(1)), [this](Index) {
       while (const std::optional<Taken> taken = take()) compute(*taken);
       loop_.close();
@@ -91,8 +91,9 @@ class ShardRun {
   }
 
  private:
-  /// A numbered shard reads what is there, since its surfaces are its own. For any() each process
-  /// would read the whole study.
+  /// Removes the surfaces whose parts exist. A numbered shard reads these parts to find damaged
+  /// ones, since no other process computes its surfaces. With Shard::any() each process would read
+  /// the whole study, so it only checks that the files exist.
   void drop_present() {
     std::erase_if(pending_, [&](const Item& item) {
       const bool present = shard_.any() ? parts_.holds(item.key) : bool(parts_.read(item.key));
@@ -114,7 +115,8 @@ class ShardRun {
     }
   }
 
-  /// The next surface, from the first on each time: a claim that held before may be void by now.
+  /// Takes the next surface that is neither present nor claimed. Searches from the first surface
+  /// each time, because a process that held a claim may have ended.
   std::optional<Taken> take() {
     const std::scoped_lock lock(guard_);
     for (auto item = pending_.begin(); !loop_.stopped() && item != pending_.end();) {
@@ -130,7 +132,8 @@ class ShardRun {
         taken.claim = detail::StudyLock::take(
             parts_.folder() / fmt::format("{:016x}{}", item->key, detail::claim_suffix));
         if (!taken.claim) ++item;
-        // Its holder may have finished it between the two looks.
+        // The process that held the claim may have finished the surface since `present` was
+        // computed.
         if (!taken.claim || parts_.holds(item->key)) continue;
       }
       ++slots_;
@@ -140,7 +143,7 @@ class ShardRun {
     return {};
   }
 
-  /// Whether the surfaces before it are there and are enough.
+  /// Returns whether the surfaces of smaller seeds exist and already have the requested precision.
   bool is_superfluous(const Item& item) {
     Point& point = points_[item.point];
     if (!shard_.any() || point.configuration.target_precision <= 0) return false;
@@ -168,7 +171,7 @@ class ShardRun {
       fractions_[taken.slot] = 1;
       note(taken.item, std::chrono::duration<double>(Clock::now() - start).count(), false);
     } catch (const Interrupted&) {
-      // Stopped.
+      // The run was stopped.
     }
   }
 
@@ -178,7 +181,7 @@ class ShardRun {
     note(item, 0, true);
   }
 
-  /// With the guard held, or before there are threads.
+  /// The caller must hold guard_, unless there are no threads yet.
   void note(const Item& item, double seconds, bool restored) {
     news_.push_back({.point = item.point,
                      .points = points_.size(),
@@ -211,7 +214,7 @@ class ShardRun {
   const Shard shard_;
   const StudyRun& run_;
   StudyParts& parts_;
-  std::deque<Point> points_;  // rules refer to their points
+  std::deque<Point> points_;  // a deque, because the rule of a Point refers to the Point
   std::list<Item> pending_;
   ShardOutcome outcome_;
   std::size_t slots_ = 0;
@@ -226,7 +229,7 @@ class ShardRun {
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
                        const StudyRun& run) {
   require_that(run.parts != nullptr, "parts",
-               "none is given; a shard needs the folder that it shares with the others");
+               "not given; a shard needs the folder that it shares with the others");
   configuration.material.modulus_ratio();
   const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   if (run.parts->count() > 0) detail::require_some_of(*run.parts, points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run of a whole study: all parameter combinations, flags and warnings.
+// Run of a whole study: all combinations of parameters, and warnings about the results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,14 +22,14 @@ namespace {
 void warn(StudyResult& result) {
   if (result.configuration.stick && !stick_solves(result.configuration)) {
     result.warnings.push_back(
-        "G*/E* is not that of any elastic body: K_t = (G*/E*)K instead of stick solves; give "
-        "`poisson`, or leave out the stick solves");
+        "no elastic body has this G*/E*, so that K_t = (G*/E*)K is used instead of stick solves; "
+        "give `poisson`, or leave out the stick solves");
   }
   const Realisation& first = result.realisations.front();
   if (!first.periodic) {
     result.warnings.push_back(fmt::format(
-        "the surface is measured, not periodic, and is continued periodically: its opposite "
-        "edges differ by {:.2g} rms heights, which adds a few steep contacts along the seam",
+        "the measured surface is not periodic but continued periodically: its opposite edges "
+        "differ by {:.2g} rms heights, which adds a few steep contacts along the seam",
         first.seam_step));
   }
   int lost = 0, unconverged = 0;
@@ -47,37 +47,36 @@ void warn(StudyResult& result) {
   const auto smooth = std::ranges::count_if(
       result.realisations, [](const Realisation& r) { return !r.has_random_summits(); });
   if (smooth > 0)
-    result.warnings.push_back(fmt::format(
-        "Nayak's parameter of {} of {} surfaces is below 1: a smooth shape, which models with "
-        "summits from moments leave out",
-        smooth, result.realisations.size()));
+    result.warnings.push_back(
+        fmt::format("Nayak's parameter is below 1 on {} of {} surfaces, which are smooth shapes; "
+                    "models with summits from moments leave them out",
+                    smooth, result.realisations.size()));
   for (const StudyModel& model : result.models()) {
     const auto without = std::ranges::count_if(result.realisations, [&](const Realisation& r) {
       return r.has_random_summits() && std::isnan(r.of(model.id).fit.decay_length);
     });
     if (without > 0)
-      result.warnings.push_back(fmt::format(
-          "{}: no decay length on {} of {} surfaces, whose curves have fewer than 3 pressures {}",
-          model.name, without, result.realisations.size(),
-          result.configuration.window ? "in the pressure_window; widen it"
-                                      : "at mean gaps of 1 to 2.5 rms heights; compute more of "
-                                        "them or give a pressure_window"));
+      result.warnings.push_back(
+          fmt::format("{}: no decay length on {} of {} surfaces, because their curves have fewer "
+                      "than 3 pressures {}",
+                      model.name, without, result.realisations.size(),
+                      result.configuration.window ? "in the pressure_window; widen it"
+                                                  : "at mean gaps of 1 to 2.5 rms heights; compute "
+                                                    "more pressures or give a pressure_window"));
   }
   const auto total = result.realisations.size() * result.pressures.size();
   if (!result.configuration.adhesion && lost > 0 && std::size_t(lost) == total) {
     result.warnings.push_back(
-        "the normal oscillation leaves the range of the contact at every force: make "
-        "normal_amplitude "
-        "smaller or widen the pressures");
+        "the normal oscillation leaves the computed range of the contact at every force; reduce "
+        "normal_amplitude or widen the pressures");
   }
 }
 
-/// What takes a surface whole.
+/// Refuses options that need the whole surface in one process, if a group has several processes.
 void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
   if (groups.all().size() == groups.count()) return;
   constexpr const char* why =
-      "needs each surface whole, and groups of several processes spread them; use groups of one "
-      "process each, or one process";
+      "needs each whole surface in one process; use groups of one process each, or one process";
   require(std::isnan(point.known.hardness), "hardness", point.known.hardness, why);
   require(!(point.relative_error > 0), "relative_error", point.relative_error, why);
   require(!point.flow_factors, "flow_factors", true, why);
@@ -85,7 +84,8 @@ void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
           contact_models()[std::size_t(ContactModel::gw_interacting)].name, why);
 }
 
-/// Refuses a surface of generated ones that one process, or those of a group, cannot hold.
+/// Refuses generated surfaces that do not fit into the memory of one process or of the processes of
+/// a group.
 void require_disk_space(const StudyResult& result, const Groups& groups) {
   if (result.grid.nx == 0) return;
   const StudyConfiguration& point = result.configuration;
@@ -112,7 +112,7 @@ void warn_of_ensemble(StudyResult& result) {
         {"first_loading",
          fmt::format(
              "plastic first loading: at {} pressures reached the hardness, {}, on {:.2g} % of the "
-             "area, which sank in by up to {}; all numbers are of the surface that unloading left",
+             "area, which sank in by up to {}; all numbers describe the surface after unloading",
              format_quantity(of_loading(&FirstLoading::pressure), Dimension::pressure),
              format_quantity(result.configuration.known.hardness, Dimension::pressure), 100 * area,
              format_quantity(of_loading(&FirstLoading::max_plastic_depth), Dimension::length))});
@@ -120,33 +120,33 @@ void warn_of_ensemble(StudyResult& result) {
     const double shortest = 2 * std::numbers::pi / recipe->spectrum_of_all()->highest_wavenumber();
     const double size = std::min(result.grid.lx, result.grid.ly);
     const SelfAffineParameters& spectrum = recipe->spectrum;
-    // A table does not say where its plateau ends.
+    // For a tabulated spectrum the roll-off wavelength is unknown, so the check is skipped.
     const double longest =
         recipe->tables.empty() ? spectrum.rolloff.value_or(spectrum.long_cutoff.value_or(size)) : 0;
     const double cell = std::max(result.grid.dx(), result.grid.dy());
-    // Lengths are given in decimals: a wave of exactly 8 cells must not fall below by rounding.
+    // The factor 1 + 1e-9 allows for rounding: a shortest wave of exactly 8 cells must not give a
+    // warning.
     constexpr double slack = 1 + 1e-9;
     if (longest * min_waves_in_cell > size * slack)
       result.ensemble_warnings.push_back(
           {"finite_size",
            fmt::format("finite size: the roll-off is 1/{:.3g} of the surface, more than 1/16; few "
-                       "independent hills carry the load, and surfaces scatter widely",
+                       "independent hills carry the load, so surfaces scatter widely",
                        size / longest)});
     if (shortest * slack < min_cells_in_wave * cell)
       result.ensemble_warnings.push_back(
           {"discretisation",
            fmt::format("discretisation: the shortest wave has {:.3g} cells, fewer than 8; the "
-                       "contact area is too large, the force hardly",
+                       "contact area is too large, while the force hardly changes",
                        shortest / cell)});
   }
   if (const double share = result.scan_share(); !std::isnan(share))
     result.ensemble_warnings.push_back(
-        {"twin",
-         fmt::format("surface twin: intervals are of a surface of the part; {:.0f} % of the "
-                     "variance of the loss is what the scans leave open, the rest differs from "
-                     "place to place",
-                     100 * share)});
-  // Where the law is fitted, the least load has the fewest spots.
+        {"twin", fmt::format("surface twin: these are prediction intervals for one surface of the "
+                             "part; {:.0f} % of the variance of the loss comes from the limited "
+                             "scans, the rest from differences between places",
+                             100 * share)});
+  // The smallest load in the range of the fit has the fewest contact patches.
   double fewest = std::numeric_limits<double>::infinity();
   for (const Realisation& realisation : result.realisations)
     for (std::size_t k = 0; k < realisation.spots.size(); ++k)
@@ -172,7 +172,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
   RealisationReport report{.points = points.size()};
   for (const StudyConfiguration& point : points) {
     const std::size_t count = detail::seeds_of(point).size();
-    require(count > 0, "seeds", 0, "is too few; give at least one");
+    require(count > 0, "seeds", 0, "given; give at least one");
     report.wanted += count;
   }
   for (const StudyConfiguration& point : points) require_spreadable(point, run.groups);
@@ -209,7 +209,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
 
 StudyResult run_study(const StudyConfiguration& configuration, const StudyRun& run) {
   const auto points = parameter_combinations(configuration).size();
-  require(points == 1, "ensemble", points, "points; this takes one, run_ensembles all");
+  require(points == 1, "ensemble", points, "points; this function takes one, run_ensembles all");
   std::vector<StudyResult> results = run_ensembles(configuration, run);
   if (!results.empty()) return std::move(results.front());
   StudyResult nothing;

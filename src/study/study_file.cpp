@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Result file of a study: a dataset for every column that the descriptions of its results name, and
-// whether an existing file holds the same study.
+// Result file of a study, with one dataset for each column in the descriptions of its results. Also
+// finds out whether an existing file is a result of the same study.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 using Names = std::vector<std::string>;
 using Means = std::vector<EnsembleMean>;
 
-/// A group with its axes, and datasets of what was described.
+/// A group of the file with its coordinates, and functions that write described results into it.
 class Table {
  public:
   explicit Table(ResultGroup group) : group_(std::move(group)) {}
@@ -54,7 +54,7 @@ class Table {
                    std::string(quantity.long_name));
   }
 
-  /// name_mean, name_low and name_high.
+  /// Writes the mean and the limits of estimates as the datasets NAME_mean, NAME_low and NAME_high.
   void put(const std::string& name, const Quantity& quantity, const Means& means,
            const Names& axes) {
     describe(
@@ -70,12 +70,13 @@ class Table {
         std::type_identity<EnsembleMean>{});
   }
 
-  /// Every column of the items that has no dataset yet.
+  /// Writes one dataset for every column of T that has no dataset yet, with one value per item.
   template <class T>
   void columns(const std::vector<const T*>& items, const Names& axes) {
     columns(items, axes, [](const NumberOf<T>&, std::string_view) { return Means(); }, {});
   }
-  /// Writes it, and ensemble_NAME for the numbers: means(number, name) along their axes.
+  /// Does the same and, for each number, also writes the estimates means(number, name) as
+  /// ensemble_NAME, with the coordinates axes_of_means.
   template <class T, class MeansOf>
   void columns(const std::vector<const T*>& items, const Names& axes, const MeansOf& means,
                const Names& axes_of_means) {
@@ -97,7 +98,7 @@ class Table {
     });
   }
 
-  /// Every column of one item as an attribute of the group.
+  /// Writes each column of one item as an attribute of the group.
   template <class T>
   void attributes(const T& item) {
     for_each_column<T>([&](const auto& access, const Quantity& quantity) {
@@ -116,10 +117,11 @@ class Table {
   }
 
   ResultGroup group_;
-  std::set<std::string> taken_;  ///< coordinates and datasets
+  std::set<std::string> taken_;  ///< names of the coordinates and datasets written so far
 };
 
-/// The results of each model on each surface, model by model.
+/// The results of all models on all surfaces: those of the first model on each surface, then those
+/// of the second, and so on.
 std::vector<const ModelResult*> model_results(const StudyResult& result) {
   std::vector<const ModelResult*> items;
   for (const StudyModel& model : result.models())
@@ -128,7 +130,7 @@ std::vector<const ModelResult*> model_results(const StudyResult& result) {
   return items;
 }
 
-/// What means(model) returns, one or one for each pressure, model by model.
+/// Joins the lists means(model) of all models; each list has one mean, or one for each pressure.
 template <class MeansOf>
 Means of_models(const StudyResult& result, const MeansOf& means) {
   Means all;
@@ -150,7 +152,8 @@ void write_surfaces(Table table, const StudyResult& result) {
   table.attributes(result.grid);
   std::string warnings, ensemble;
   for (const std::string& warning : result.warnings) warnings += warning + "\n";
-  for (const EnsembleWarning& found : result.ensemble_warnings) ensemble += found.name + ": " + found.text + "\n";
+  for (const EnsembleWarning& found : result.ensemble_warnings)
+    ensemble += found.name + ": " + found.text + "\n";
   table.group().attribute("warnings", warnings);
   table.group().attribute("ensemble_warnings", ensemble);
 }
@@ -173,7 +176,8 @@ void write_curves(Table table, const StudyResult& result) {
 void write_local_decay_lengths(Table table, const StudyResult& result) {
   table.models(result);
   table.realisations(result);
-  // Samples that did not converge shorten a list; the rest of its row stays unknown.
+  // If a sample did not converge, the list of a surface is shorter; the rest of its row becomes
+  // unknown.
   const std::size_t midpoints = result.pressures.size() - 1;
   table.group().index("midpoint", midpoints, "between consecutive pressures");
   for_each_column<LocalDecayLength>([&](const auto& access, const Quantity& quantity) {
@@ -277,7 +281,7 @@ void write_assumptions(ResultGroup group, const StudyResult& result, const Study
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
   for (const AssumptionName& name : assumption_names())
     for_each_column<Assumption>([&](const auto& column, const Quantity& quantity) {
-      // Flow has an onset, the other assumptions have limits.
+      // Plasticity has an onset and no other limit; the other assumptions have limits and no onset.
       const bool flows = name.assumption == &Assumptions::plasticity;
       if (quantity.name == (flows ? "limit_5_percent" : "onset") ||
           (flows && quantity.name == "limit_20_percent"))
@@ -342,7 +346,7 @@ void write_flow(Table table, const StudyResult& result) {
       {"pressure"});
 }
 
-/// The cycles of adhesive contacts.
+/// Writes the loading cycles of adhesive contacts.
 void write_adhesion(Table table, const StudyResult& result) {
   table.realisations(result);
   table.group().coordinate("mean_gap", result.configuration.adhesion->cycle, "m",
@@ -367,7 +371,7 @@ void write_adhesion(Table table, const StudyResult& result) {
   });
 }
 
-/// Every model beside the boundary elements on the same surfaces.
+/// Writes the results of every model divided by those of boundary elements on the same surfaces.
 void write_comparison(Table table, const StudyResult& result) {
   table.models(result);
   table.pressures(result);
@@ -394,7 +398,7 @@ void write_picture(ResultGroup group, const SurfacePicture& picture) {
   maps.coordinate("x", positions(picture.nx, picture.step_x));
   maps.coordinate("y", positions(picture.ny, picture.step_y));
   if (!picture.gap.empty()) group.attribute("mapped_load", std::int64_t(picture.mapped_load));
-  std::string axis;  // of the lists that follow it
+  std::string axis;  // coordinate of the lists that come after it in the description
   for_each_column<SurfacePicture>([&](const auto& column, const Quantity& quantity) {
     const auto& value = column(picture);
     using Value = std::remove_cvref_t<decltype(value)>;
@@ -415,7 +419,8 @@ void write_picture(ResultGroup group, const SurfacePicture& picture) {
   });
 }
 
-/// The groups of one point of the parameter grid, below `where` ("" or "points/3/").
+/// Writes the groups of one point of the parameter grid. where: path in front of their names ("" or
+/// "points/3/").
 void write_study_groups(ResultFile& output, const std::string& where, const StudyResult& result) {
   const auto table = [&](const char* name) { return Table(output.group(where + name)); };
   write_surfaces(table("surface"), result);
@@ -438,7 +443,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
 }
 
-/// What the ensembles of several points come to, side by side.
+/// Writes the main results of several points of the parameter grid in one group.
 void write_study_overview(ResultGroup group, const std::vector<StudyResult>& results) {
   Table table(group);
   group.index("point", results.size(), "point of the parameter grid, group points/N");
@@ -481,14 +486,14 @@ bool is_result_of(const std::filesystem::path& file, const StudyConfiguration& s
     for (const char* group : {"surface", "ensemble"})
       if (reader.has(group) && reader.text_attribute(group, "study") == key) return true;
   } catch (const InvalidInput&) {
-    // Some other file.
+    // The file is no result file.
   }
   return false;
 }
 
 void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,
                      Provenance provenance, const WriteOptions& options) {
-  require_that(!results.empty(), "study", "no surface was finished; there is nothing to write");
+  require_that(!results.empty(), "study", "no surface was finished, so there is nothing to write");
   provenance.configuration = results.front().configuration.text;
   if (!results.front().realisations.empty())
     provenance.seed = results.front().realisations.front().seed;

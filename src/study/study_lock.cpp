@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lock of a folder of realisations, and of one surface of it, by flock().
+// Locks by flock() of a folder of realisations, and of single surfaces in it.
 #include "study_lock.hpp"
 
 #include <fcntl.h>
@@ -22,7 +22,7 @@ namespace {
       fmt::format("{}: cannot be {} ({}); {}", file.string(), doing, std::strerror(errno), remedy));
 }
 
-/// Who holds the lock, as its file says; for the message alone.
+/// Reads from the lock file which process holds the lock; used only in messages.
 std::string holder_in(const std::filesystem::path& file) {
   std::array<char, 400> text = {};
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -37,7 +37,7 @@ void write_holder(int descriptor, StudyLock::Kind kind) {
   const std::string text = fmt::format(
       "{}process {} on {}", kind == StudyLock::Kind::shared ? "shards, the latest of them " : "",
       getpid(), host.data());
-  // A disk that is full costs the message a name, and nothing else.
+  // A failure, for example because the disk is full, only leaves the name out of messages.
   if (ftruncate(descriptor, 0) == 0 && pwrite(descriptor, text.data(), text.size(), 0) < 0) return;
 }
 
@@ -56,16 +56,17 @@ std::unique_ptr<StudyLock> StudyLock::take(std::filesystem::path file) {
 }
 
 bool StudyLock::acquire(Kind kind) {
-  // A holder that ends between the steps costs a turn, as does a signal; it needs one or two.
+  // An attempt fails if another holder ends between opening and locking the file, or on a signal.
+  // One or two attempts are usually enough.
   for (int attempt = 0; attempt < 20; ++attempt) {
-    // A pipe in its place would be waited for.
+    // O_NONBLOCK avoids waiting if the file is a pipe.
     const int opened = open(file_.c_str(), O_RDWR | O_CREAT | O_NONBLOCK | O_CLOEXEC, 0666);
     if (opened < 0 && errno == EINTR) continue;
     if (opened < 0) fail(file_, "created", "check permissions and space");
     struct stat mine = {}, present = {};
     if (fstat(opened, &mine) != 0 || !S_ISREG(mine.st_mode)) {
       close(opened);
-      throw InvalidInput(file_.string(), "is no regular file; remove it");
+      throw InvalidInput(file_.string(), "is not a regular file; remove it");
     }
     if (flock(opened, (kind == Kind::shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0) {
       const int error = errno;
@@ -73,9 +74,10 @@ bool StudyLock::acquire(Kind kind) {
       if (error == EINTR) continue;
       if (error == EWOULDBLOCK) return false;
       errno = error;
-      fail(file_, "locked", "put the results on a file system that has locks");
+      fail(file_, "locked", "put the results on a file system with file locks");
     }
-    // Its last holder may have removed the file meanwhile: then this is the lock of nothing.
+    // If the last holder has removed the file meanwhile, other processes lock a new file and not
+    // this one; then it tries again.
     if (stat(file_.c_str(), &present) == 0 && present.st_ino == mine.st_ino &&
         present.st_dev == mine.st_dev) {
       descriptor_ = opened;
@@ -90,7 +92,7 @@ bool StudyLock::acquire(Kind kind) {
 
 StudyLock::~StudyLock() {
   if (descriptor_ < 0) return;
-  // Only the last of those that share it gets it alone.
+  // Of the holders of a shared lock only the last one gets it exclusively, and removes the file.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0) unlink(file_.c_str());
   close(descriptor_);
 }

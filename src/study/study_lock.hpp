@@ -6,20 +6,21 @@
 
 namespace salebra::detail {
 
-/// Follows the key of a realisation: the lock file of who computes it.
+/// Ending of the name of a lock file: the process that computes a realisation holds the file
+/// "key.claim".
 inline constexpr const char* claim_suffix = ".claim";
 
-/// A lock file that lives as long as the object. The lock is the system's (flock): it goes with its
-/// process, however that ends, is kept by one that is stopped, and holds between hosts whose folder
-/// is on NFS or Lustre. The last of its holders removes the file.
+/// A lock file that exists as long as the object. The operating system manages the lock (flock): it
+/// ends with the process that holds it, however the process ends, and a stopped process keeps it.
+/// It also works between machines that share the folder by NFS or Lustre. The last holder removes
+/// the file.
 class StudyLock {
  public:
   enum class Kind { alone, shared };
-  /// shared: together with others that share it.
-  /// Throws InvalidInput where another holds it, IoError where the file cannot be made or its file
-  /// system has no locks.
+  /// Takes the lock. kind: `alone`, or `shared` with other holders. Throws InvalidInput if another
+  /// process prevents this, IoError if the file cannot be made or its file system has no locks.
   explicit StudyLock(std::filesystem::path file, Kind kind = Kind::alone);
-  /// Takes the lock alone, or returns nothing where another holds it.
+  /// Takes the lock without sharing it; returns nullptr if another process holds it.
   static std::unique_ptr<StudyLock> take(std::filesystem::path file);
   ~StudyLock();
   StudyLock(const StudyLock&) = delete;
@@ -28,7 +29,7 @@ class StudyLock {
  private:
   struct Open {};
   StudyLock(std::filesystem::path file, Open) : file_(std::move(file)) {}
-  /// False where another holds it.
+  /// Takes the lock; returns false if another process prevents this.
   bool acquire(Kind kind);
 
   std::filesystem::path file_;

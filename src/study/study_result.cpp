@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ensemble means of a study: decay length, area slope, curves, damping, ratios to BEM.
+// Ensemble means of a study: decay length, area slope, force curves, damping, ratios to boundary
+// elements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +24,8 @@ EnsembleMean estimate(const StudyConfiguration& configuration, const std::vector
   return configuration.of_twin() ? prediction(values) : Bootstrap().mean(values);
 }
 
-/// A number of a loss with a numerical error, that of its work; a damping constant is a work times
-/// damping_per_work.
+/// A number that follows from a loss, with the error that belongs to it. If `constant` is set it is
+/// a damping constant, and its error is that of the loss times damping_per_work.
 struct StatedNumber {
   std::string_view name;
   bool constant;
@@ -130,7 +131,8 @@ std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
               ratio * points[k].damping_constant_without_slip) /
              constant;
     });
-    // Where both are known on all surfaces, the mean of the scatter is 0.
+    // If both damping constants are known on all surfaces, the mean of the scatter is 0; otherwise
+    // it is subtracted.
     deviations.push_back({ratio - 1, ratio - 1 + (scatter.low - scatter.mean),
                           ratio - 1 + (scatter.high - scatter.mean)});
   }
@@ -178,13 +180,13 @@ std::vector<EnsembleMean> StudyResult::over_bem(const NumberOf<ForceSample>& num
   });
 }
 
-std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPoint>& number,
-                                                        ContactModel model) const {
+std::vector<EnsembleMean> StudyResult::damping_over_bem(
+    const NumberOf<DampingPoint>& number, ContactModel model,
+    const NumberOf<DampingPoint>& reference) const {
   return at_pressures([&](const Realisation& r, std::size_t k) {
     const auto& points = r.of(model).damping;
-    return k < points.size()
-               ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle_without_slip
-               : ForceSample::unknown;
+    return k < points.size() ? number(points[k]) / reference(r.of(ContactModel::bem).damping[k])
+                             : ForceSample::unknown;
   });
 }
 
@@ -193,9 +195,12 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work",
-                           "work_per_cycle_without_slip", "work_per_cycle"})
+  for (const char* name :
+       {"work_per_cycle_closed_form", "small_amplitude_work", "work_per_cycle_without_slip"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
+  // Like is compared with like: a loss with slip is divided by a loss with slip.
+  const NumberOf<DampingPoint> described = &DampingPoint::work_per_cycle;
+  ratios.emplace_back("work_per_cycle", damping_over_bem(described, model, described));
   return ratios;
 }
 
@@ -203,8 +208,9 @@ std::vector<StatedMean> StudyResult::stated(std::string_view quantity, ContactMo
   const StatedNumber* number = stated_number(quantity);
   if (!number)
     throw InvalidInput("quantity", "'" + std::string(quantity) + "'",
-                       "has no numerical error; ask damping() for it");
-  // Noise is another on each surface, the other errors are alike.
+                       "has no numerical error; call damping() for it");
+  // The noise of cells is independent on each surface, so it decreases in the mean; the other
+  // errors are the same on all surfaces.
   const double alike = 1 - 1 / double(realisations.size());
   std::vector<StatedMean> means;
   for (const EnsembleMean& value : damping(number->value, model)) {
@@ -218,7 +224,7 @@ std::vector<StatedMean> StudyResult::stated(std::string_view quantity, ContactMo
       const double absolute =
           std::sqrt(std::pow(error.total(), 2) - alike * std::pow(error.noise, 2)) *
           (number->constant ? points[k].damping_per_work : 1);
-      // That of one surface is stated although the number may not be.
+      // A single surface states its error even if the number itself is unknown.
       if (realisations.size() == 1) mean.error = absolute;
       const double relative = absolute / std::abs(points[k].*number->value);
       if (std::isnan(relative)) continue;
@@ -289,7 +295,8 @@ double StudyResult::scan_share() const {
   const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   double sum = 0, loads = 0;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
-    std::map<std::size_t, std::vector<double>> of_table;  // ln W of the surfaces of one spectrum
+    // Ln W of the surfaces, for each spectrum of the twin.
+    std::map<std::size_t, std::vector<double>> of_table;
     double first = 0, second = 0, count = 0, within = 0, pairs = 0;
     for (const Realisation& realisation : realisations) {
       const double work = realisation.of(ContactModel::bem).damping[k].work_per_cycle;
@@ -313,9 +320,10 @@ double StudyResult::scan_share() const {
 
 std::string StudyResult::interval_method() const {
   const std::size_t count = realisations.size();
-  if (count == 1) return "one surface: no interval, which needs a sample of surfaces";
+  if (count == 1) return "one surface: no interval, because it needs several surfaces";
   if (configuration.of_twin())
-    return fmt::format("95 % interval of a surface of the part, by {} surfaces of its twin", count);
+    return fmt::format(
+        "95 % prediction interval for a surface of the part, from {} surfaces of its twin", count);
   return fmt::format("95 % {} interval of the mean over {} surfaces",
                      count < Bootstrap::min_bootstrap_count ? "Student-t" : "bootstrap-t", count);
 }

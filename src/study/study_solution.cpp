@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answer of a study: the loss of the motion as described, and its verdicts.
+// Solution of a study: the loss of the motion as the user described it, and its assumptions.
 #include <algorithm>
 #include <cmath>
 #include <salebra/analysis/slip.hpp>
@@ -27,19 +27,21 @@ ForceCurve mean_curve(const StudyResult& result) {
     sample.normal_stiffness = normal[k].mean;
     sample.tangential_stiffness = tangential[k].mean;
     sample.contact_area_fraction = area[k].mean;
-    // Means over different surfaces, where some did not converge, need not fall.
+    // The mean gap should decrease with the pressure. It may not if some surfaces did not converge,
+    // since then the means are over different surfaces; such a sample is dropped.
     sample.converged = sample.mean_gap < min_gap;
     if (sample.converged) min_gap = sample.mean_gap;
   }
   return curve;
 }
 
-/// Parameters of the configuration, with what the surfaces say.
+/// The contact parameters of the configuration, completed by properties of the computed surfaces.
 ContactParameters parameters_of(const StudyResult& result) {
   ContactParameters parameters = result.configuration.known;
   parameters.contact_modulus = result.configuration.material.contact_modulus;
   parameters.loaded_size = std::max(result.grid.lx, result.grid.ly);
-  parameters.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
+  parameters.rms_slope =
+      result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
   for (const Realisation& realisation : result.realisations)
     if (realisation.first_loading.yielded())
       parameters.first_load =
@@ -47,7 +49,7 @@ ContactParameters parameters_of(const StudyResult& result) {
   return parameters;
 }
 
-/// Parts of the mean work, where slip is followed.
+/// Sets the fractions of relaxation and of slip in the mean loss, if slip was computed.
 void set_shares(StudySolution& solution, const StudyResult& result) {
   const auto relaxation = result.damping(&DampingPoint::relaxation_work);
   const auto slip = result.damping(&DampingPoint::slip_work);
@@ -89,7 +91,8 @@ StudySolution solution_of(const StudyResult& result) {
           at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
       parameters.nominal_pressure = sample.pressure;
       parameters.loaded_size = known.loaded_size;
-      solution.assumptions[k] = assumptions_of(law, -sample.mean_gap, configuration.motion, parameters);
+      solution.assumptions[k] =
+          assumptions_of(law, -sample.mean_gap, configuration.motion, parameters);
     }
   }
   solution.verdicts = verdicts_of(solution.assumptions, solution.slips(), result.pressures);

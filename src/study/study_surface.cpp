@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surfaces of a study, and the loads that press them.
+// The surfaces of a study, and the loads on them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
 Surface measured_surface(const MeasuredSurface& recipe, const Communicator& communicator,
                          std::vector<std::string>* warnings) {
   require_that(!recipe.file.empty(), "surface",
-               "none is given; name a file, or describe surfaces to generate");
+               "not given; name a file, or describe surfaces to generate");
   ReadOptions options = recipe.reading();
   options.warnings = warnings;
   Surface surface = read_surface(recipe.file, options, communicator);
@@ -49,7 +49,8 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
 
 namespace {
 
-/// Leaves out the loads that no surface of that hardness carries, where they are a default.
+/// Removes default loads above half of the hardness, and warns of it. Throws if the largest load
+/// exceeds the hardness.
 void require_below_hardness(const StudyConfiguration& configuration, StudyLoads& loads) {
   const double hardness = configuration.known.hardness;
   std::vector<double>& pressures = loads.pressures;
@@ -58,16 +59,17 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
   };
   const auto below =
       std::ranges::count_if(pressures, [&](double pressure) { return !(pressure > hardness / 2); });
-  constexpr std::ptrdiff_t least = 4;  // make a curve
+  constexpr std::ptrdiff_t least = 4;  // number of loads that a curve needs
   if (configuration.pressures_below_hardness && below < std::ssize(pressures) && below >= least) {
     loads.warnings.push_back(fmt::format(
-        "loads end at {}, {} of the {} by default: at half of the hardness of {}",
+        "loads end at {}, {} of the default {}, because they are limited to half of the hardness "
+        "of {}",
         text(pressures[std::size_t(below) - 1]), below, pressures.size(), text(hardness)));
     pressures.resize(std::size_t(below));
   }
   require(!(pressures.back() > hardness), "hardness", text(hardness),
           fmt::format(
-              "is below the largest of the loads, {}; end them below it{}", text(pressures.back()),
+              "is below the largest load, {}; choose loads below it{}", text(pressures.back()),
               loads.contact_scale > 0 ? fmt::format(", which is {:.2g} of E* times the rms slope",
                                                     hardness / loads.contact_scale)
                                       : ""));
@@ -96,27 +98,31 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
           "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
   require(!adhesive || std::isnan(configuration.known.hardness), "hardness",
           configuration.known.hardness,
-          "with adhesion is of one first loading, which `contact` answers; leave out one of them");
+          "with adhesion needs a single first loading, which `contact` computes; leave out one of "
+          "them");
   if (adhesive)
-    if (const auto coarse = warning_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
+    if (const auto coarse =
+            warning_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
       loads.warnings.push_back(*coarse);
   loads.contact_scale = modulus * slope;
   if (configuration.relative_pressures)
     for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
-  // Where the slope is doubted, relative pressures are too large with it.
+  // Relative pressures are too large if the slope is too large; then the warning about the slope is
+  // enough.
   if (!warning && !(configuration.relative_pressures && slope > 1))
     warning = warning_of_pressure(loads.pressures.back(), modulus);
   if (warning) loads.warnings.push_back(*warning);
   require_below_hardness(configuration, loads);
-  require(configuration.intervals != 0 || !(configuration.relative_error > 0 || configuration.seam),
-          "intervals", 0,
-          "levels state no error; use 4 or more, or leave out `relative_error` and the error of "
-          "the seam");
+  require(
+      configuration.intervals != 0 || !(configuration.relative_error > 0 || configuration.seam),
+      "intervals", 0,
+      "intervals give no error; use 4 or more, or leave out `relative_error` and the error of the "
+      "seam");
   if (const auto& window = configuration.window) {
     const auto inside = std::ranges::count_if(
         loads.pressures, [&](double pressure) { return window->contains(pressure); });
     require(inside >= 3, "pressure_window", inside,
-            "pressures lie in it and a fit needs 3; widen it or compute more of them");
+            "pressures lie in it, but a fit needs 3; widen it or compute more pressures");
   }
   return loads;
 }

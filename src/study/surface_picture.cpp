@@ -18,8 +18,9 @@ namespace {
 
 using detail::unknown;
 
-/// C0 q^{−2(1+H)} with the C0 that fits the spectrum in the range of the estimate, every mode
-/// counting once.
+/// The power law C0 q^{−2(1+H)} at the wavenumbers of the spectrum, with the estimated Hurst
+/// exponent H. C0 is fitted to the spectrum in the range of the estimate, where every Fourier mode
+/// has equal weight.
 std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& hurst) {
   std::vector<double> law(rings.wavenumber.size(), unknown);
   if (!hurst.found()) return law;
@@ -31,7 +32,8 @@ std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& 
   for (std::size_t i = 0; i < law.size(); ++i) {
     const double q = rings.wavenumber[i];
     if (!inside(q)) continue;
-    // Relative deviations count: a ring of the law's density has weight modes, whatever its power.
+    // The fit is to relative deviations, so the weight of a ring is its number of modes, whatever
+    // its power.
     law[i] = std::pow(q / hurst.wavenumber_min, slope);
     power += double(rings.modes[i]) * rings.psd[i] / law[i];
     unit_power += double(rings.modes[i]);

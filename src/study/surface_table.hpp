@@ -7,11 +7,13 @@
 
 namespace salebra::detail {
 
-/// The keys of a measured surface, of a study or of one of several scans. folder: of the document.
+/// Reads the keys of a measured surface, in a study or as one of several scans. folder: that of the
+/// TOML file, to which the names of files are relative.
 MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& folder);
 
-/// A study file as read_study_configuration() reads it, with the spectrum of a twin in place of that
-/// which its [surface] names: files of that are not opened, and need not be there.
+/// Reads a study file as read_study_configuration() does, but uses the spectra of a surface twin
+/// instead of the spectrum in [surface]. Files named in [surface] are not opened and need not
+/// exist.
 StudyConfiguration read_study_of_twin(const std::filesystem::path& file,
                                       const std::filesystem::path& twin);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One TOML table read key by key, with errors that name file, line and key.
+// Reads a TOML table key by key, with errors that name file, line and key.
 #include "toml_reader.hpp"
 
 #include <fmt/format.h>
@@ -25,9 +25,10 @@ std::string written(const toml::node& node) {
   return one_line;
 }
 
-/// Each part of a dotted key is a table within a table to toml++, which takes them apart by
-/// recursion: a key of 60,000 parts would exhaust the stack. It limits the nesting of values
-/// itself. Strings are not told from keys here, decimal points are.
+/// Refuses a key of many parts, such as a.b.c. The TOML library makes a table of each part and
+/// destroys these tables by recursion, so a key of 60,000 parts would exhaust the stack. (The
+/// library itself limits the nesting of values.) Dots in strings count as parts too; decimal points
+/// do not.
 void require_shallow_keys(std::string_view text, const std::string& name) {
   constexpr int most = 32;
   const auto is_word = [](char symbol) {
@@ -42,7 +43,7 @@ void require_shallow_keys(std::string_view text, const std::string& name) {
     }
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end = std::find_if_not(begin, text.end(), is_word);
-    int dots = 0;  // runs of them
+    int dots = 0;  // groups of dots in this key
     for (auto at = begin; at != end; ++at) dots += *at == '.' && (at == begin || at[-1] != '.');
     const bool number = dots == 1 && std::isdigit(static_cast<unsigned char>(*begin));
     if (!number) parts += std::min(dots, most + 1);
@@ -55,7 +56,7 @@ void require_shallow_keys(std::string_view text, const std::string& name) {
 
 }  // namespace
 
-/// A table, and the document that it is a part of.
+/// A table, and the document to which it belongs.
 struct TomlTable::Content {
   std::shared_ptr<const toml::table> document;
   const toml::table* table;
@@ -205,7 +206,7 @@ std::optional<double> TomlTable::quantity(std::string_view key, Dimension dimens
 double TomlTable::required_quantity(std::string_view key, Dimension dimension) {
   const auto value = quantity(key, dimension);
   if (!value) {
-    // A misspelt key is no other than the missing one.
+    // If a key of the table has a similar name, it is the required key, misspelt.
     for (const auto& [name, node] : *content_->table)
       if (!nearest_name(name.str(), {std::string(key)}).empty())
         fail(name.str(), fmt::format("this key is not known (did you mean {}?)", key));

@@ -13,37 +13,38 @@
 
 namespace salebra::detail {
 
-/// One table of a TOML document, read key by key; what was never asked for is an unknown key.
-/// Each error is InvalidInput "FILE:LINE: table.key: value constraint".
+/// One table of a TOML document, read key by key. Keys that were never read count as unknown. Each
+/// error is an InvalidInput of the form "FILE:LINE: table.key: value constraint".
 class TomlTable {
  public:
-  /// The whole of a document; name is its file's, for errors.
+  /// Parses a whole document. name: name of its file, for error messages.
   static TomlTable parse(const std::string& text, const std::string& name);
 
   bool has(std::string_view key) const;
   std::optional<TomlTable> table(std::string_view key);
   TomlTable required_table(std::string_view key);
-  /// The tables [[key]] in their order.
+  /// The tables of an array of tables [[key]], in the order of the document.
   std::vector<TomlTable> tables(std::string_view key);
 
   std::optional<std::string> text(std::string_view key);
-  /// Strings of an array, or one.
+  /// The strings of an array, or a single string.
   std::vector<std::string> texts(std::string_view key);
   std::optional<bool> flag(std::string_view key);
-  /// One of the names, given back as its place in them.
+  /// The index in `names` of the text with this key.
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& names);
-  /// A number, or a string with a unit.
+  /// A quantity in SI units, given as a number or as a text with a unit.
   std::optional<double> quantity(std::string_view key, Dimension dimension);
   double required_quantity(std::string_view key, Dimension dimension);
-  /// A quantity, an array of them, or a string as parse_values takes it.
+  /// A list of quantities, given as one quantity, an array of quantities, or a text that
+  /// parse_values() can read.
   std::vector<double> values(std::string_view key, Dimension dimension);
   std::vector<std::int64_t> integers(std::string_view key);
 
-  /// Throws InvalidInput at the key's line.
+  /// Throws InvalidInput that names the line of the key.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   void check(bool ok, std::string_view key, const std::string& message) const;
-  /// Runs the library's own check and adds file and line to what it throws, by the key that it
-  /// names.
+  /// Runs a check of the library. If it throws, adds to its error the file, and the line of the key
+  /// that the error names.
   template <class Action>
   auto located(Action action) const {
     try {
@@ -53,14 +54,14 @@ class TomlTable {
     }
   }
 
-  /// Throws for the first unused key.
+  /// Throws for the first key that was not read.
   void require_no_other_keys() const;
 
  private:
-  struct Content;  // types of the TOML library, which one source knows
+  struct Content;  // hides the types of the TOML library, which only one source file includes
   struct Access;
 
-  /// line stands for the table itself where it lacks a key.
+  /// line: that of the table header, for errors about missing keys.
   TomlTable(std::string file, std::string path, Content content, std::uint32_t line);
   std::uint32_t line_of(std::string_view key) const;
   std::string path_of(std::string_view key) const;

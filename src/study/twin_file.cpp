@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans of a surface twin from TOML, and the twin as a file.
+// Reads the scans of a surface twin from a TOML file, and reads and writes the twin as a file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,10 +41,10 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
   instrument.resolution = positive(table, "resolution", Dimension::length, 0);
   instrument.tip_radius = positive(table, "tip_radius", Dimension::length, 0);
   table.check((instrument.kind == Instrument::optical) == (instrument.resolution > 0), "resolution",
-              "is of an optical instrument, which needs it: the full width at half "
+              "must be given for an optical instrument and for no other: the full width at half "
               "maximum of its blur");
   table.check(instrument.has_tip() == (instrument.tip_radius > 0), "tip_radius",
-              "is of a stylus or afm, which needs it");
+              "must be given for a stylus or afm and for no other");
   instrument.noise = positive(table, "noise", Dimension::length, instrument.noise);
   instrument.height_calibration = positive(table, "height_calibration", Dimension::dimensionless,
                                            instrument.height_calibration);
@@ -57,12 +57,12 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
   return measurement;
 }
 
-/// Limits of what a file may hold. A fit has five knots a decade and a thousand draws unless the
-/// user wants more; a study tabulates each draw.
+/// Limits for the contents of a twin file. A fit usually has five knots (wavenumbers of the
+/// tabulated spectrum) per decade and a thousand draws.
 constexpr Index max_draws = 20000;
 constexpr std::size_t max_knots = 64;
 
-/// The parameters of a twin with their names.
+/// The names of the parameters of a twin.
 constexpr std::pair<const char*, TwinParameter SurfaceTwin::*> parameters[] = {
     {"hurst", &SurfaceTwin::hurst},
     {"rolloff", &SurfaceTwin::rolloff},
@@ -77,7 +77,8 @@ constexpr std::pair<const char*, double TwinDraw::*> numbers_of_draw[] = {
     {"rms_height", &TwinDraw::rms_height},
     {"rms_slope", &TwinDraw::rms_slope}};
 
-/// ln C and the knots in one place: a law has its amplitude at one reference.
+/// The wavenumbers of a draw. A draw that is a power law has only one, the reference wavenumber of
+/// its amplitude. log_psd_of() gives ln C at these wavenumbers.
 std::vector<double> knots_of(const TwinDraw& draw) {
   return draw.form == SpectrumForm::table ? draw.knots : std::vector{draw.reference};
 }
@@ -167,10 +168,13 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const std::optional<std::string> word =
       file.has("twin") ? file.text_attribute("twin", "form") : std::nullopt;
   const std::optional<SpectrumForm> form = word ? parse_enum<SpectrumForm>(*word) : std::nullopt;
-  if (!form) throw InvalidInput(path.string(), "is no surface twin, which `salebra twin` writes");
+  if (!form)
+    throw InvalidInput(path.string(),
+                       "is not a surface twin; name a file that `salebra twin` wrote");
   const std::string position = "twin/draws/";
   const bool table = *form == SpectrumForm::table;
-  // Extents come first: a packed file may hold more numbers than fit into the memory.
+  // Checks the sizes before reading, because a compressed file may contain more numbers than fit
+  // into memory.
   const auto count_of = [&](const std::string& name) {
     std::size_t count = 1;
     for (const Index extent : file.shape(position + name)) {
@@ -192,7 +196,8 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   for (const auto& [name, member] : numbers_of_draw)
     require(count_of(name) == count, path.string(), count_of(name),
             fmt::format("values of {} belong to {} draws", name, count));
-  // Every number is in a range that holds all surfaces and no overflow.
+  // Reads numbers and checks that they lie between `low` and `high`. The limits used below include
+  // all real surfaces and exclude overflow.
   const auto within = [&](const std::string& name, double low, double high) {
     std::vector<double> values = file.numbers(position + name);
     for (const double value : values)
@@ -206,10 +211,10 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
           fmt::format("has knots in {}knot that do not rise", position));
   std::vector<TwinDraw> draws(count);
   for (const auto& [name, member] : numbers_of_draw) {
-    // A table has neither exponent nor roll-off.
+    // A tabulated spectrum has neither a Hurst exponent nor a roll-off.
     const bool unused = table && (member == &TwinDraw::hurst || member == &TwinDraw::rolloff);
-    const std::vector<double> values = unused                           ? file.numbers(position + name)
-                                       : member == &TwinDraw::hurst     ? within(name, -1, 3)
+    const std::vector<double> values = unused                       ? file.numbers(position + name)
+                                       : member == &TwinDraw::hurst ? within(name, -1, 3)
                                        : member == &TwinDraw::rms_slope ? within(name, 0, 1e6)
                                                                         : within(name, 1e-15, 1e6);
     for (std::size_t i = 0; i < count; ++i) draws[i].*member = values[i];
@@ -233,7 +238,7 @@ std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const G
   const double lowest = std::numbers::pi / std::max(grid.lx, grid.ly);
   const double nyquist = std::numbers::pi / std::max(grid.dx(), grid.dy());
   const auto carried = [&](TwinDraw draw) {
-    // What is shorter than two cells is not on this grid.
+    // Cuts the spectrum at waves of two cells, the shortest ones on this grid.
     draw.short_cutoff = std::max(draw.short_cutoff, 2 * std::numbers::pi / nyquist);
     return tabulated(draw, lowest);
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of an installation against known solutions: Hertz, Westergaard, GW, the theorem.
+// Checks of an installation against known solutions: Hertz, Westergaard, Greenwood and Williamson,
+// the theorem W = ½∮s² dK_t.
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -32,7 +33,7 @@ void check_hertz(Checks& checks) {
   const IndenterLaw sphere(paraboloid_profile(radius), steel);
   const double force = 4.0 / 3.0 * modulus * std::sqrt(radius * std::pow(indentation, 3));
   const double contact_radius = std::sqrt(radius * indentation);
-  // Both sides are the same formulas in another order of operations.
+  // Computed and expected value are the same formula in another order of operations.
   checks.push_back({"Hertz force", sphere.force(indentation), force, 1e-13});
   checks.push_back({"Hertz stiffness 2E*a", sphere.normal_stiffness(indentation),
                     2 * modulus * contact_radius, 1e-13});
@@ -49,7 +50,8 @@ void check_hertz_by_boundary_elements(Checks& checks) {
   sphere.heights.resize(n, n);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < n; ++j) {
-      // Off the grid's symmetry, so that the edge of the contact does not run along cells.
+      // The centre is at no point of symmetry of the grid, so the edge of the contact does not
+      // follow cell sides.
       const double x = (double(i) - double(n / 2) - 0.31) * size / double(n);
       const double y = (double(j) - double(n / 2) - 0.17) * size / double(n);
       sphere.heights(i, j) = -(x * x + y * y) / (2 * radius);
@@ -58,8 +60,8 @@ void check_hertz_by_boundary_elements(Checks& checks) {
   const double force = 4.0 / 3.0 * modulus * std::pow(contact_radius, 3) / radius;
   const auto state = press(sphere, modulus, at_pressure(force / sphere.grid.area()),
                            {.tolerance = 1e-8, .boundary = Boundary::free});
-  // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the
-  // centre's place in its cell.
+  // Tolerances for 26 cells per radius: the error of the indentation is of second order in the cell
+  // size, and the maximum pressure depends on where the centre lies in its cell.
   checks.push_back({"Hertz indentation by boundary elements",
                     state.converged() ? state.indentation : ForceSample::unknown,
                     contact_radius * contact_radius / radius, 2e-3});
@@ -79,7 +81,8 @@ void check_westergaard(Checks& checks) {
   for (Index i = 0; i < n; ++i)
     wave.heights.row(i) = amplitude * std::cos(2 * pi * double(i) / double(n));
   const auto state = press(wave, modulus, at_pressure(1.01 * full), {.tolerance = 1e-12});
-  // One Fourier mode, so no error of the grid: what the solver leaves.
+  // The pressure is a single Fourier mode, which the grid represents exactly, so only the error of
+  // the solver remains.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",
                     state.converged() ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
@@ -95,7 +98,7 @@ void check_greenwood_williamson(Checks& checks) {
   const double force = law.force(-3 * ensemble.summit_rms);
   const auto result =
       relaxation_damping(law, at_force(force), drag, {.amplitude = Amplitude::small});
-  // Closed forms on both sides.
+  // Computed and expected value are closed forms.
   checks.push_back(
       {"exponential summits obey Eq. (16) with l = sigma", result.work_per_cycle,
        closed_form::work_per_cycle_rough(steel.modulus_ratio(), force, ensemble.summit_rms, drag),
@@ -105,7 +108,8 @@ void check_greenwood_williamson(Checks& checks) {
 void check_integrals(Checks& checks) {
   const auto j = [](double k) { return closed_form::drag_integral_scaled(k) * std::exp(k); };
   checks.push_back({"J(0)", j(0), pi * pi - 4, 1e-13});
-  // Ten digits from an independent quadrature.
+  // The drag integral J(k). The expected values have ten digits and come from an independent
+  // quadrature.
   checks.push_back({"J(1)", j(1), 4.323679579, 3e-10});
   checks.push_back({"J(3)", j(3), 5.056702593, 3e-10});
 }
@@ -115,7 +119,7 @@ void check_theorem(Checks& checks) {
   const ExponentialLaw rough(force, decay_length, ratio);
   const IndenterLaw cone(cone_profile(0.1), steel);
   const double indentation = 1e-7, curvature = cone.force_curvature(indentation);
-  // Quadrature to 1e-10 against closed forms.
+  // Compares quadrature with a tolerance of 1e-10 with closed forms.
   const auto compare = [&](const char* name, const ContactLaw& law, double at,
                            const Oscillation& motion, double expected) {
     const auto result = relaxation_damping(law, at_indentation(at), motion);
@@ -138,7 +142,8 @@ void check_generator(Checks& checks) {
       {.hurst = 0.7, .rolloff = 4e-6, .short_cutoff = 4e-7, .rms_height = 1e-8});
   const SpectralMoments target = spectrum.lattice_moments(grid);
   const SpectralMoments found = surface_moments(random_phase(grid, spectrum, 7));
-  // Random phases leave no chance to the power of a mode: round-off of the transforms only.
+  // Random phases do not change the power of a mode, so the spectral moments differ only by
+  // round-off of the transforms.
   checks.push_back(
       {"random-phase surface: m0 of its spectrum", found.moment0, target.moment0, 1e-11});
   checks.push_back(

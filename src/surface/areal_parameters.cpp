@@ -23,15 +23,15 @@ namespace {
 using std::numbers::pi;
 
 using detail::unknown;
-constexpr double correlation_level = 0.2;  ///< s of Sal and Str, ISO's default
-constexpr double pruning = 0.05;           ///< of Sz, ISO's default
-constexpr int directions = 720;            ///< of half a turn
+constexpr double correlation_level = 0.2;  ///< s of Sal and Str, default of ISO 25178
+constexpr double pruning = 0.05;           ///< least prominence of peaks/Sz, by default
+constexpr int directions = 720;            ///< number of directions in half a turn
 
-/// Distance along a direction at which the correlation first falls to the level; infinite where it
-/// does not.
+/// Distance along a direction at which the autocorrelation first falls to the level; infinite if it
+/// never does.
 double fall_distance(const CorrelationMap& map, double angle, double level) {
   const double along_x = std::cos(angle), along_y = std::sin(angle);
-  // Half a cell, counted in cells: these may be of any shape.
+  // Step along the direction, in metres: it is half a cell for cells of any shape.
   const double step = 0.5 / std::hypot(along_x / map.grid.dx(), along_y / map.grid.dy());
   const auto value = [&](double distance) {
     const double row = static_cast<double>(map.origin()) + distance * along_x / map.grid.dx();
@@ -59,7 +59,7 @@ double fall_distance(const CorrelationMap& map, double angle, double level) {
   }
 }
 
-/// of(angle) of all directions.
+/// Returns of(angle) for all directions of half a turn.
 template <class Of>
 std::vector<double> of_directions(const Of& of) {
   return parallel::map_blocks_of<double>(
@@ -79,10 +79,12 @@ void set_correlation_lengths(ArealParameters& result, const CorrelationMap& map)
   result.Str = falls && std::isfinite(longest) ? shortest / longest : unknown;
 }
 
-/// ∫ r C dr along a ray of the spectrum, up to a common factor; bilinear between modes.
+/// ∫ r C dr along a ray of the spectrum C in the direction `angle`, up to a factor common to all
+/// rays. C is interpolated bilinearly between modes.
 double ray_power(const PowerSpectrum& spectrum, double angle) {
   const Grid2D& grid = spectrum.grid;
-  // Steps are in units of modes: the same physical direction on any cell.
+  // Steps are measured in numbers of modes, scaled so that `angle` is the physical direction for
+  // any shape of the surface.
   const double scale = std::min(grid.lx, grid.ly);
   const double along_x = std::cos(angle) * grid.lx / scale;
   const double along_y = std::sin(angle) * grid.ly / scale;
@@ -93,7 +95,8 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
   double sum = 0;
   for (double r = 0.5;; r += 0.5) {
     const double x = r * along_x, y = r * along_y;
-    // If sides are far apart, a step exceeds what an index holds: the numbers are compared first.
+    // For extremely elongated surfaces a step can exceed the range of an index, so compare
+    // floating-point numbers instead of indices.
     if (2 * std::abs(x) > static_cast<double>(grid.nx) ||
         y >= static_cast<double>(spectrum.psd.cols()))
       return sum;
@@ -128,7 +131,8 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
   };
   const Index columns = surface.periodic ? grid.ny : grid.ny - 1;
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
+  for (const Sums& block :
+       parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index ix = begin; ix < end; ++ix) {
            const double *here = rows[ix], *right = rows[ix + 1];
@@ -144,7 +148,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
                for (const double y : along_y) {
                  const double square = x * x + y * y;
                  sums.slope += square;
-                 // √(1 + s) − 1 without the loss of digits where s is small.
+                 // √(1 + s) − 1 without cancellation for a small squared slope s.
                  sums.area += square / (std::sqrt(1 + square) + 1);
                  ++sums.triangles;
                }
@@ -162,7 +166,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
   result.Sdr = total.triangles > 0 ? total.area / triangles : unknown;
 }
 
-/// Those that need the order of all heights, or ways across the whole surface.
+/// Sets the parameters that need the order of all heights, or paths across the whole surface.
 void set_of_whole(ArealParameters& result, const Surface& surface, const ArealParts& parts) {
   const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);
   const double count = static_cast<double>(peaks.size());
@@ -171,7 +175,8 @@ void set_of_whole(ArealParameters& result, const Surface& surface, const ArealPa
   result.Spd = count / surface.grid.area();
   result.Spc = peaks.empty() ? unknown : curvature / count;
 
-  // Copies of what is there would take longer than its use.
+  // Parts that the caller has computed before are used in place: copying them would take longer
+  // than using them.
   const auto use = [&](const auto* part, const auto& make, const auto& with) {
     part ? with(*part) : with(make(surface));
   };

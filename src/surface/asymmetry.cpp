@@ -15,10 +15,11 @@ namespace salebra::detail {
 namespace {
 
 constexpr Index parts = 36;
-/// For Gaussian heights, t of 36 parts exceeds it with a probability of 3e-4.
+/// For Gaussian heights, Student's t of a mean over 36 parts exceeds this value with a probability
+/// of 3e-4.
 constexpr double significant = 4;
 
-/// Sums of the powers 0 … 3 of second differences.
+/// Sums of the powers 0, 1, 2 and 3 of second differences of heights.
 using Moments = Eigen::Array4d;
 constexpr std::size_t powers = 4;
 
@@ -33,7 +34,7 @@ Moments moments(const double* heights, Index begin, Index end, Index lag) {
   return {static_cast<double>(end - begin), first, square, cube};
 }
 
-/// Student's t of the third central moments of the parts.
+/// Student's t of the mean third central moment of second differences over the parts of a surface.
 double student(const Eigen::Array4Xd& of_parts) {
   const Moments whole = of_parts.rowwise().sum();
   const double mean = whole(1) / whole(0);
@@ -53,7 +54,7 @@ double along(const Surface& surface, Axis axis) {
   const Index n = axis == Axis::x ? surface.grid.nx : surface.grid.ny;
   const double step = axis == Axis::x ? surface.grid.dx() : surface.grid.dy();
   const RowPartition profiles = profiles_of(surface, axis);
-  // A few profiles are cut along their length alone.
+  // A surface with few profiles is divided into parts along its profiles only.
   const Index groups = profiles.rows() < parts ? 1 : 6, pieces = parts / groups;
   std::vector<Index> lags;
   for (Index lag = 1; 4 * lag * pieces <= n; lag = std::max(lag + 1, 3 * lag / 2))

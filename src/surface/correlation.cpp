@@ -21,13 +21,13 @@ using PairModes = LargeArray<std::complex<double>>;
 
 using detail::unknown;
 
-/// Sums over pairs of points at each distance vector, as circular correlations of a grid that is
-/// padded where it is not periodic.
+/// Sums over pairs of points at each distance vector, as circular correlations on a grid padded
+/// with zeros along axes that are not periodic.
 class PairSums {
  public:
   PairSums(Index nx, Index ny) : nx_(nx), ny_(ny) {}
 
-  /// Transforms value(height) of each point, column after column.
+  /// Fourier transform of value(height) for all points, stored column by column.
   template <class Value>
   PairModes transform(const Field& heights, const Value& value) const {
     const Index columns = ny_ / 2 + 1;
@@ -46,7 +46,8 @@ class PairSums {
     return modes;
   }
 
-  /// ½ Σ_x [a(x) b(x+r) + b(x) a(x+r)] for the vectors of a map of such a grid.
+  /// ½ Σ_x [a(x) b(x+r) + b(x) a(x+r)] over the points x, for all distance vectors r of a map of
+  /// the grid.
   Field correlate(const PairModes& a, const PairModes& b, const Grid2D& grid) const {
     const Field buffer = backward_by_columns(
         nx_, ny_, ny_ / 2 + 1, [&](Index j, std::span<std::complex<double>> column) {
@@ -78,8 +79,8 @@ CorrelationMap correlation_map(const Surface& surface) {
   surface.require_whole("a correlation map");
   const double mean = height_statistics(surface).mean;
   const Grid2D& grid = surface.grid;
-  // Two fields of the grid, and two sets of complex modes of its pairs, which are four times as
-  // many where it is not periodic.
+  // Memory: two fields of the grid, and two sets of complex modes on the padded grid, which has
+  // four times as many points as the grid if the surface is not periodic.
   require_memory(grid, (surface.periodic ? 32 : 80) * static_cast<double>(grid.points()),
                  "a correlation map");
   const PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));
@@ -117,7 +118,7 @@ CorrelationMap correlation_map(const Surface& surface) {
         structure = (pairs > 0).select(2 * (squares.row(row) - of_row) / pairs, unknown);
         of_row = (pairs > 0).select(of_row / pairs, unknown);
       }
-      // Rounding leaves a trace of either sign where there is nothing.
+      // Where the structure function is zero, rounding leaves a small positive or negative number.
       structure = structure.isNaN().select(structure, structure.max(0.0));
     }
   });

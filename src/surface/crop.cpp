@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rectangle of a surface, and the largest one without undefined points.
+// A rectangle cut out of a surface, and the largest rectangle without undefined points.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace salebra {
 namespace {
 
-/// The cells from one coordinate to another, as first and count.
+/// The cells between two coordinates along an axis: index of the first cell, and number of cells.
 std::pair<Index, Index> cells_between(double from, double to, double step, Index points) {
   const auto text = [&](double length) { return format_quantity(length, Dimension::length); };
   const double first = std::round(from / step), last = std::round(to / step);
@@ -46,14 +46,14 @@ std::optional<Rectangle> max_defined_part(const Surface& surface) {
   surface.require_whole("a search for its largest part without undefined points");
   detail::require_shape(surface);
   const Grid2D& grid = surface.grid;
-  // For each row, the largest rectangle that ends there: `depth` counts the defined points above
-  // each of its points, and a stack holds those of increasing depth, each with the first column that is
-  // at least as deep.
+  // For each row, finds the largest rectangle of defined points that ends in this row. `depth`
+  // counts the successive defined points that end in each point of the row. The stack holds
+  // increasing depths, each with the first column from which on the points are at least that deep.
   struct Step {
     Index first, depth;
   };
   std::vector<Index> depth(static_cast<std::size_t>(grid.ny) + 1,
-                           0);  // the last ends all rectangles
+                           0);  // a last 0 ends all rectangles
   std::vector<Step> steps;
   Index best = 0;
   std::optional<Rectangle> found;

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removal of the mean, of a plane or of a quadratic surface; of a straight line or of the offset of
-// each scan line.
+// Removes the mean, a plane or a quadratic surface, or the straight line or offset of each scan
+// line.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
 
-#include "surface/dense_systems.hpp"
+#include "base/numerics/dense_systems.hpp"
 
 namespace salebra {
 namespace {
 
-/// Coordinates that run from −1 to 1 keep the normal equations well conditioned for any size and
-/// shape of the grid.
+/// Coordinate of point i of n, from −1 to 1: this keeps the normal equations well conditioned for
+/// any size and shape of the grid.
 double centred(Index i, Index n) {
   return n > 1 ? 2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0 : 0.0;
 }
 
-/// The terms of a trend at a point: 1, x, y, and of a quadratic one x², xy, y².
+/// The terms of a trend at the point (x, y): 1, x, y, and for a quadratic trend also x², xy, y².
 template <int Terms>
 Eigen::Vector<double, Terms> terms_at(double x, double y) {
   if constexpr (Terms == 3)
@@ -35,7 +35,8 @@ void subtract_fit(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
   const RowPartition partition = surface.partition();
   const double mean = height_statistics(surface).mean;
-  // The rows of the normal equations' matrix, then their right side.
+  // Sums for the rows of the matrix of the normal equations, followed by the sums for their
+  // right-hand side.
   constexpr std::size_t equations = Terms, numbers = equations * (equations + 1);
   using Sums = std::array<double, numbers>;
   Sums total{};
@@ -45,7 +46,8 @@ void subtract_fit(Surface& surface) {
            for (Index iy = 0; iy < ny; ++iy) {
              const double height = surface.heights(row, iy);
              if (std::isnan(height)) continue;
-             const auto terms = terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny));
+             const auto terms =
+                 terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny));
              for (std::size_t a = 0; a < equations; ++a) {
                const double term = terms(static_cast<Index>(a));
                for (std::size_t b = 0; b < equations; ++b)
@@ -64,15 +66,16 @@ void subtract_fit(Surface& surface) {
     for (Index row = begin; row < end; ++row)
       for (Index iy = 0; iy < ny; ++iy)
         surface.heights(row, iy) -=
-            mean + trend.dot(terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny)));
+            mean +
+            trend.dot(terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny)));
   });
 }
 
-/// Takes off each line along x its straight line; one with one defined point loses its height, one
-/// without any keeps none.
+/// Subtracts from each line along x the line's least-squares straight line. A line with one defined
+/// point becomes 0 at this point; a line without defined points is left alone.
 void subtract_lines(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
-  height_statistics(surface);  // refuses what has no heights
+  height_statistics(surface);  // throws if no height is defined
   for (Index iy = 0; iy < ny; ++iy) {
     double points = 0, sum_x = 0, sum = 0;
     for (Index ix = 0; ix < nx; ++ix) {
@@ -94,7 +97,7 @@ void subtract_lines(Surface& surface) {
   }
 }
 
-/// The median; of an even number the mean of the two in the middle. Changes their order.
+/// The median; for an even number of values, the mean of the middle two. Reorders the values.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -102,10 +105,12 @@ double median(std::vector<double>& values) {
   return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
-/// A line of which nothing can be compared keeps the offset of the one before.
+/// Subtracts from each line along x its offset against the line before it: the median difference
+/// between each point and the last defined height at the same x. A line without such a pair of
+/// points keeps the offset of the line before it.
 void subtract_offsets(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
-  height_statistics(surface);  // refuses what has no heights
+  height_statistics(surface);  // throws if no height is defined
   Eigen::ArrayXd before = Eigen::ArrayXd::Constant(nx, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> differences;
   double offset = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Undefined points filled by the discrete Laplace equation.
+// Fills undefined points by a solution of the discrete Laplace equation.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@ Holes holes_of(const Surface& surface) {
   detail::require_shape(surface);
   const Grid2D& grid = surface.grid;
   Holes holes;
-  // Side of the largest square that ends at each point of a row: one more than the least of its
-  // three neighbours before.
+  // Side of the largest square of undefined points whose last corner is each point of a row: one
+  // more than the minimum over the three neighbours that come before the point.
   std::vector<Index> sides(static_cast<std::size_t>(grid.ny) + 1, 0);
   Index widest = 0;
   for (Index ix = 0; ix < grid.nx; ++ix) {
@@ -46,7 +46,7 @@ Surface filled(Surface surface) {
   const Index unknowns = surface.undefined_points();
   if (unknowns == 0) return surface;
   require(unknowns < grid.points(), "heights", "all points",
-          "are undefined; there is nothing to fill from");
+          "are undefined, so there is nothing to fill from");
 
   using Number = Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Number number = Number::Constant(grid.nx, grid.ny, -1);
@@ -55,7 +55,7 @@ Surface filled(Surface surface) {
     for (Index iy = 0; iy < grid.ny; ++iy)
       if (std::isnan(surface.heights(ix, iy))) number(ix, iy) = next++;
 
-  // Weights relative to each other, so that nothing over- or underflows in metres.
+  // Weights relative to each other avoid the overflow and underflow of 1/dx² for lengths in metres.
   const double ratio = grid.dx() / grid.dy();
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/numerics/dense_systems.hpp"
 #include "ring_means.hpp"
-#include "surface/dense_systems.hpp"
 #include "surface/power_law_range.hpp"
 
 namespace salebra {
@@ -22,14 +22,16 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double min_span = 3;            ///< of the fitted range, q_max/q_min
-constexpr double forgiven_deviation = 0.1;  ///< of C from a power law, in the choice of the range
+constexpr double min_span = 3;              ///< minimum ratio of the largest to the smallest q
+constexpr double forgiven_deviation = 0.1;  ///< relative deviation of C from a power law that the
+                                            ///< choice of the range tolerates
 
 struct Range {
   double low = 0, high = 0;  ///< rad/m
 };
 
-/// Weighted least squares of y = a + b·x over any run of points, in constant time.
+/// Weighted least-squares line y = a + b·x through any run of successive points, in a time that
+/// does not depend on the number of points.
 class RunningFit {
  public:
   void add(double x, double y, double weight) {
@@ -47,7 +49,7 @@ class RunningFit {
   struct Line {
     double slope = 0, misfit = 0;
   };
-  /// sloped = false fits a constant.
+  /// Fits the points begin … end − 1; sloped = false fits a constant.
   Line fit(std::size_t begin, std::size_t end, bool sloped) const {
     if (begin == end) return {};
     const Sums &a = sums_[begin], &b = sums_[end];
@@ -65,7 +67,7 @@ class RunningFit {
   std::vector<Sums> sums_{Sums{}};
 };
 
-/// The power-law piece of a radial spectrum; an empty range if there is none.
+/// The range of a radial spectrum in which it follows a power law; an empty range if there is none.
 Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& radial,
                         double highest) {
   const Grid2D& grid = spectrum.grid;
@@ -75,7 +77,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   bool power_ended = false;
   for (std::size_t k = 0; k < radial.modes.size() && !power_ended; ++k) {
     if (radial.wavenumber[k] > nyquist) break;
-    // Rounding leaves 1e-32 of the strongest mode where a spectrum is cut off.
+    // Beyond a cut-off, rounding leaves 1e-32 of the strongest mode; such power counts as zero.
     power_ended = !(radial.psd[k] > 1e-24 * strongest);
     if (!power_ended) bins.push_back(k);
   }
@@ -83,7 +85,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   for (const std::size_t k : bins) {
     const double independent = static_cast<double>(radial.modes[k]) / 2;
     const double variance = 1 / independent + forgiven_deviation * forgiven_deviation;
-    // The mean of n exponential variates has a logarithm that is low by about 1/(2n).
+    // The logarithm of the mean of n exponentially distributed powers is biased by about −1/(2n).
     fits.add(std::log(radial.wavenumber[k]), std::log(radial.psd[k]) + 0.5 / independent,
              1 / variance);
   }
@@ -97,7 +99,9 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
       if (radial.wavenumber[bins[end - 1]] < min_span * radial.wavenumber[bins[begin]]) continue;
       const double misfit = fits.fit(0, begin, false).misfit + fits.fit(begin, end, true).misfit +
                             fits.fit(end, count, true).misfit;
-      // A plateau costs its level and its end; a tail its beginning and one or two parameters.
+      // Number of parameters of the model. A plateau costs two: its height and its end. A tail
+      // beyond the power law costs its beginning, and one more for a single bin or two more for
+      // several bins.
       const double parameters = 2 + (begin > 0 ? 2.0 : 0.0) +
                                 1.0 * static_cast<double>(std::min<std::size_t>(count - end, 2)) +
                                 (end < count ? 1.0 : 0.0);
@@ -109,7 +113,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
     }
   }
   if (!std::isfinite(best)) return {};
-  // The bins at an end that was found hold waves of both sides.
+  // A bin at the beginning or end of the power law contains waves from both sides of that limit.
   const bool cut_above = best_end < count || power_ended;
   const std::size_t first = best_begin + (best_begin > 0 ? 1 : 0);
   const std::size_t last = best_end - 1 - (cut_above ? 1 : 0);
@@ -125,12 +129,12 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
 }
 
 struct Mode {
-  double x = 0;  ///< ln q, from the mean of all modes
+  double x = 0;  ///< ln q; after shift(), minus its mean over all modes
   double power = 0;
-  double weight = 0;  ///< independent complex amplitudes
+  double weight = 0;  ///< number of independent complex amplitudes
 };
 
-/// The modes of a range of wave numbers, each in the process that has its column.
+/// The modes of a spectrum in a range of wave numbers. Each process has the modes of its columns.
 class ModesWithin {
  public:
   ModesWithin(const PowerSpectrum& spectrum, const Range& range) : columns_(spectrum.columns()) {
@@ -150,7 +154,7 @@ class ModesWithin {
     blocks_ = parallel::map_blocks_of<std::vector<Mode>>(size(), columns_.count(), within);
   }
 
-  /// Sums of the numbers that add(sums, mode) adds to, over the modes of all processes.
+  /// Calls add(sums, mode) for the modes of all processes and returns the sums over them.
   template <std::size_t numbers, class Add>
   std::array<double, numbers> sums(const Add& add) const {
     std::array<double, numbers> total;
@@ -166,12 +170,12 @@ class ModesWithin {
                                   for (const Mode& mode : block(begin)) add(of_block, mode);
                                 });
   }
-  /// ln q counts from another place.
+  /// Subtracts `centre` from ln q of all modes.
   void shift(double centre) {
     for (auto& modes : blocks_)
       for (Mode& mode : modes) mode.x -= centre;
   }
-  /// The least and the greatest ln q.
+  /// The minimum and maximum of ln q.
   std::pair<double, double> range() const {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
     for (const auto& modes : blocks_) {
@@ -194,8 +198,9 @@ class ModesWithin {
   std::vector<std::vector<Mode>> blocks_;
 };
 
-/// ln C = a + b·x by maximum likelihood for exponentially distributed powers: Newton's method with
-/// the expected information, which is convex and hence safe from any start.
+/// Maximum-likelihood fit of ln C = a + b·x over x = ln q to exponentially distributed powers.
+/// Newton's method with the expected information converges from any start, because the problem is
+/// convex.
 Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
                               const Eigen::Matrix2d& information) {
   Eigen::Vector2d law(std::log(mean_power), 0);
@@ -206,12 +211,13 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
       sums[0] += excess;
       sums[1] += excess * mode.x;
     });
-    // A far start overshoots; a step of more than one unit is shortened.
+    // From a distant start a step of the parameters a and b may overshoot, so its length is at most
+    // 1.
     Eigen::Vector2d step = detail::least_squares(information, Eigen::Vector2d(score[0], score[1]));
     step /= std::max(1.0, step.norm());
     law += step;
-    // Processors of two types may not agree on the last digits of a logarithm, but on when to end
-    // they must.
+    // Processors of two types may differ in the last digits of a logarithm, but all processes must
+    // end the iteration in the same step, so they take the parameters of the first process.
     modes.communicator().broadcast(law.data(), 2 * sizeof(double));
     double length = step.norm();
     modes.communicator().broadcast(&length, sizeof length);
@@ -220,18 +226,19 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
   return law;
 }
 
-/// The density that Hann's window shows of a surface that does not end: means over displacements of
-/// one mode each way, 1 : 4 : 1.
+/// Power spectral density of an unbounded self-affine surface as seen through Hann's window: a
+/// weighted mean of the density over wave vectors displaced by −1, 0 and 1 mode along x and y, with
+/// weights 1 : 4 : 1 along each axis.
 detail::SelfAffineDensity windowed_density(const Grid2D& grid) {
   const double step_x = 2 * pi / grid.lx, step_y = 2 * pi / grid.ly;
   return [=](double q, double hurst, double q_rolloff) {
     const auto at = [&](double qx, double qy) {
       return std::pow(std::max(qx * qx + qy * qy, q_rolloff * q_rolloff), -1 - hurst);
     };
-    // Beyond some waves it makes less of a difference than the bins can show.
+    // At this wave number the window changes the density by less than the bins can resolve.
     if (q > 16 * std::max(step_x, step_y)) return at(q, 0);
     double sum = 0;
-    // A direction for which the mean over all of them is met.
+    // For a wave vector in this direction, the weighted mean is about its mean over all directions.
     const double qx = q * std::cos(pi / 8), qy = q * std::sin(pi / 8);
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)
@@ -240,14 +247,15 @@ detail::SelfAffineDensity windowed_density(const Grid2D& grid) {
   };
 }
 
-/// H of a surface that is not periodic.
+/// Hurst exponent of a surface that is not periodic, whose spectrum has a window.
 HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   const Grid2D& grid = spectrum.grid;
-  // As many rings as describe a law to better than a hundredth.
+  // This number of rings resolves a power law to better than a hundredth.
   constexpr int rings_per_octave = 6;
   const RadialSpectrum radial = radial_spectrum(spectrum, rings_per_octave);
   const double lowest = 4 * 2 * pi / std::min(grid.lx, grid.ly);
-  // Waves of less than two and a half cells are what points fold most, and no law describes them.
+  // Waves shorter than two and a half cells suffer most from aliasing, and no law describes their
+  // power.
   highest = std::min(highest, 0.8 * pi / std::max(grid.dx(), grid.dy()));
   constexpr double forgiven = 0.02;
   const double strongest = radial.psd.empty() ? 0 : std::ranges::max(radial.psd);
@@ -307,8 +315,8 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
   const Eigen::Matrix2d information{{second[0], second[1]}, {second[1], second[2]}};
   const Eigen::Vector2d law = fit_power_law(modes, power / weight, information);
 
-  // Scatter of rings of equal width in ln q about the law, in units of what exponential powers
-  // have.
+  // Scatter of the mean powers of rings of equal width in ln q about the fitted law, relative to
+  // the scatter that exponentially distributed powers would give.
   const auto [least, greatest] = modes.range();
   const double width = std::log(2.0) / 4;
   const auto rings = static_cast<std::size_t>((greatest - least) / width) + 1;

@@ -21,11 +21,12 @@
 namespace salebra {
 namespace {
 
-/// What add(sums, height) makes of the defined heights of all processes.
+/// Calls add(sums, height) for the defined heights of all processes and returns the sums over them.
 template <class Sums, class Add>
 Sums sum_defined(const Surface& surface, const Add& add) {
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
+  for (const Sums& block :
+       parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
            if (const double height = surface.heights.data()[k]; !std::isnan(height))
@@ -36,8 +37,8 @@ Sums sum_defined(const Surface& surface, const Add& add) {
   return total;
 }
 
-/// Sum of squares over the stencils that touch no undefined point; a NaN of any of their points
-/// makes the value NaN.
+/// Sum of squares of the values of a finite-difference stencil, over all points where the stencil
+/// has no undefined heights; an undefined height makes the value of its stencil NaN.
 struct Squares {
   double sum = 0;
   Index count = 0;
@@ -57,7 +58,7 @@ struct Squares {
   }
 };
 
-/// Sums over the heights that are defined.
+/// Sums over the defined heights.
 struct HeightSums {
   double sum = 0, minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
   Index count = 0;
@@ -68,7 +69,7 @@ struct HeightSums {
     count += other.count;
   }
   double mean() const {
-    require(count > 0, "heights", "all points", "are undefined; there is nothing to measure");
+    require(count > 0, "heights", "all points", "are undefined, so there is nothing to measure");
     const double mean = sum / static_cast<double>(count);
     require(std::isfinite(mean), "heights", "infinity", "cannot be averaged; correct it");
     return mean;
@@ -82,20 +83,21 @@ HeightSums sums_of_heights(const Surface& surface) {
 }
 
 struct ProfileMoments {
-  double zeroth = 0;  // along y alone
+  double zeroth = 0;  // mean of Σ |h|²; along y only
   double second = 0, fourth = 0;
 };
 
-/// Σ |h|², Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By
-/// Parseval's theorem across the profiles that is the sum over the spectrum of the surface, which
-/// would take as much memory as the heights.
+/// Means over all profiles along an axis of Σ |h|², Σ q² |ĥ|² and Σ q⁴ |ĥ|², with the modes ĥ of a
+/// profile at the wave numbers q. By Parseval's theorem for the direction across the profiles, they
+/// equal sums over the two-dimensional spectrum, which would take as much memory as the heights.
 ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const Grid2D& grid = surface.grid;
   const bool along_x = axis == Axis::x;
   const Index n = along_x ? grid.nx : grid.ny;
   const double length = along_x ? grid.lx : grid.ly;
   RealFft2D<double> fft(1, n);
-  // For each mode, the weight of its power in the second moment, and q² times that in the fourth.
+  // For each mode of a profile, the weight of its power in the second moment, and q² times this
+  // weight for the fourth moment.
   const auto count = static_cast<std::size_t>(fft.modes_y());
   std::vector<double> weights(count), squares(count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -163,7 +165,7 @@ SpectralMoments spectral_moments(const Surface& surface) {
   if (!complete)
     collectively(surface.communicator, [&] { surface.require_complete_rows("spectral moments"); });
   require(surface.periodic, "surface", surface.origin.empty() ? "not periodic" : surface.origin,
-          "is not periodic and has no spectral moments; use moments by finite differences");
+          "is not periodic, so it has no spectral moments; use moments by finite differences");
   const ProfileMoments along_x = profile_moments(surface, Axis::x, range.mean());
   const ProfileMoments along_y = profile_moments(surface, Axis::y, range.mean());
   SpectralMoments moments;
@@ -185,7 +187,8 @@ SpectralMoments difference_moments(const Surface& surface) {
   };
   const detail::NeighbourRows rows(surface);
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
+  for (const Sums& block :
+       parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index ix = begin; ix < end; ++ix) {
            const double *left = rows[ix - 1], *here = rows[ix], *right = rows[ix + 1];

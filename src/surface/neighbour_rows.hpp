@@ -2,13 +2,13 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 namespace salebra::detail {
 
-/// The rows of a surface that this process holds, and one before and one behind them, from other
-/// processes where they are there. Collective.
+/// The rows of a surface that this process holds, and one row before and one after these, which may
+/// come from other processes. Collective.
 class NeighbourRows {
  public:
   explicit NeighbourRows(const Surface& surface) {
@@ -24,8 +24,8 @@ class NeighbourRows {
     const std::size_t bytes = static_cast<std::size_t>(surface.grid.ny) * sizeof(double);
     rows_ = exchange.fetch(surface.heights.data(), bytes, bytes, room_);
   }
-  /// −1 … the number of rows of this process; nullptr beyond the edge of a surface that is not
-  /// periodic.
+  /// Returns a row; `row` is −1 … number of rows of this process. The result is nullptr beyond the
+  /// edge of a surface that is not periodic.
   const double* operator[](Index row) const {
     return static_cast<const double*>(rows_[static_cast<std::size_t>(row + 1)]);
   }

@@ -16,7 +16,7 @@
 namespace salebra {
 namespace {
 
-/// The order in which falling water uncovers points.
+/// A point in the order in which falling water uncovers points.
 struct Uncovered {
   double height;
   std::int32_t point;
@@ -25,9 +25,10 @@ struct Uncovered {
   }
 };
 
-/// The water falls from the highest point to the lowest; where two hills meet, the lower one ends.
-/// Steepest ways up tell the hill of every point, and hills can only meet at points with higher
-/// neighbours on two of them: the water need not stop at any other.
+/// Finds peaks as falling water would uncover them, from the highest point to the lowest; where two
+/// hills meet, the hill with the lower peak ends. The steepest path upward assigns each point to a
+/// hill. Two hills can meet only at a point that has higher neighbours on both hills, so the search
+/// visits only such points.
 class PeakSearch {
  public:
   PeakSearch(const Surface& surface, double min_prominence)
@@ -80,14 +81,15 @@ class PeakSearch {
     return all;
   }
 
-  /// False beside an undefined height.
+  /// Whether point a is higher than point b; false if either height is undefined.
   bool is_higher(Index a, Index b) const {
     return heights_[a] > heights_[b] || (heights_[a] == heights_[b] && a < b);
   }
 
   template <class Visit>
   void visit_neighbours(Index point, const Visit& visit) const {
-    // Indices have 32 bits: a division of 64 would take a third of the search.
+    // Numbers of points fit into 32 bits; 64-bit divisions would take a third of the time of the
+    // search.
     const Index ix = static_cast<std::uint32_t>(point) / static_cast<std::uint32_t>(grid_.ny),
                 iy = point - ix * grid_.ny;
     if (ix > 0 && ix + 1 < grid_.nx && iy > 0 && iy + 1 < grid_.ny) {
@@ -117,14 +119,16 @@ class PeakSearch {
     towards_[static_cast<std::size_t>(point)] = static_cast<std::int32_t>(highest);
   }
 
-  // Threads shorten ways that others climb: whatever they read leads to the same summit.
+  // The next point on the way up from a point. Threads shorten such paths while others climb them;
+  // every value that a thread may read leads to the same summit.
   std::atomic_ref<std::int32_t> towards(Index point) const {
     return std::atomic_ref(towards_[static_cast<std::size_t>(point)]);
   }
   Index next_of(Index point) const { return towards(point).load(std::memory_order_relaxed); }
   bool is_summit(Index point) const { return next_of(point) == point; }
 
-  /// The summit above a point, which it points to from now on.
+  /// Returns the summit at the end of the path upward from a point, and makes the path lead to it
+  /// directly.
   Index climb(Index point) const {
     Index summit = next_of(point);
     for (Index next = next_of(summit); next != summit; next = next_of(summit)) summit = next;
@@ -135,8 +139,8 @@ class PeakSearch {
     return summit;
   }
 
-  /// Whether the higher neighbours of a point stand on several hills that no one of them, as it was
-  /// uncovered, had joined before.
+  /// Whether the higher neighbours of a point belong to several hills of which no two have been
+  /// joined at one of these neighbours.
   bool hills_meet(Index point) const {
     const Index own = next_of(point);
     bool inside = true;
@@ -151,7 +155,7 @@ class PeakSearch {
     return !joined;
   }
 
-  /// Hills of the higher neighbours of a point.
+  /// The hills that the higher neighbours of a point belong to.
   struct Slopes {
     std::array<Index, 8> hills;
     std::size_t count = 0;
@@ -179,7 +183,7 @@ class PeakSearch {
       if (!is_higher(next, point)) return;
       Index other = climb(next);
       if (other == own) return;
-      // The lower of two hills ends at this saddle.
+      // The hill with the lower peak ends at this saddle.
       if (is_higher(own, other)) std::swap(own, other);
       if (own != point) {
         keep(own, heights_[own] - heights_[point]);
@@ -208,7 +212,7 @@ class PeakSearch {
   const Grid2D& grid_;
   const double* heights_;
   const double min_prominence_;
-  const std::array<Index, 8> ahead_;  ///< of a point inside to its neighbours
+  const std::array<Index, 8> ahead_;  ///< index offsets from an inner point to its neighbours
   LargeArray<std::int32_t> towards_;  ///< the highest neighbour, later the summit
   std::vector<Peak> peaks_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain mean of the profile spectra of several scans.
+// Plain mean of the power spectra of the profiles of several scans.
 #include <cmath>
 #include <complex>
 #include <map>
@@ -16,9 +16,9 @@ using std::numbers::pi;
 
 PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid) {
   grid.validate();
-  require(grid.nx >= 4, "grid", grid.nx, "points along x are too few; give 4 or more");
+  require(grid.nx >= 4, "grid", grid.nx, "points along x given; give 4 or more");
   require_that(heights.rows() == grid.nx && heights.cols() == grid.ny, "heights",
-               "have not the shape of the grid");
+               "do not have the shape of the grid");
   require_that(heights.allFinite(), "heights", "have undefined points; fill or crop them");
   const Index nx = grid.nx, ny = grid.ny, columns = ny / 2 + 1;
   Field windowed = heights;
@@ -30,7 +30,8 @@ PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid) {
                                                        static_cast<std::size_t>(columns));
   transform.forward(windowed.data(), modes.get());
 
-  // Means over profiles are sums over q_y, by Parseval's theorem; of real heights ±q_x are alike.
+  // By Parseval's theorem, a mean over profiles along x is a sum over the wave numbers q_y; real
+  // heights have equal power at q_x and −q_x.
   const double scale = grid.dx() * grid.dx() / (2 * pi * grid.lx) / static_cast<double>(ny * ny);
   const Index last = nx / 2 - 1;
   const double step = 2 * pi / grid.lx;
@@ -49,7 +50,7 @@ PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid) {
         power += (j == 0 || 2 * j == ny ? 0.5 : 1) *
                  std::norm(modes[static_cast<std::size_t>(row * columns + j)]);
     const double q = step * static_cast<double>(k);
-    // A limit belongs to the bin below it.
+    // A wave number at a limit of two bins belongs to the lower bin.
     const auto bin =
         first_bin + static_cast<Index>(std::ceil((std::log10(q) - low + margin) / width)) - 1;
     if (spectrum.bin.empty() || spectrum.bin.back() != bin) {
@@ -71,7 +72,7 @@ PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid) {
 }
 
 PlainSpectrum plain_average(const std::vector<PlainSpectrum>& scans) {
-  require_that(!scans.empty(), "scans", "are none; give one or more");
+  require_that(!scans.empty(), "scans", "none given; give at least one");
   struct Sums {
     double wavenumber = 0, psd = 0;
     Index scans = 0;

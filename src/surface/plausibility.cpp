@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Doubts of heights: slopes that no surface has.
+// Warnings about implausible heights.
 #include "plausibility.hpp"
 
 #include <fmt/format.h>
@@ -16,12 +16,13 @@
 namespace salebra {
 namespace {
 
-/// Mean and mean square of the differences of neighbours, over those that are defined.
+/// Sum and sum of squares of the height differences of neighbouring points; undefined heights are
+/// ignored.
 struct Differences {
   double sum = 0, squares = 0, count = 0;
 
-  /// Each of the values less the one at its place in `others`. Eight sums side by side: one after
-  /// another they would take longer than the heights take from the disk's cache.
+  /// Adds the differences values[i] − others[i]. Eight sums in parallel: a single chain of
+  /// additions would take longer than reading the heights from the disk's cache.
   void add(const double* values, const double* others, Index size) {
     double differences = 0, their_squares = 0, defined = 0;
 #pragma omp simd simdlen(8) reduction(+ : differences, their_squares, defined)
@@ -41,15 +42,15 @@ struct Differences {
     squares += other.squares;
     count += other.count;
   }
-  /// Mean square of the slope about its mean; NaN where there is no pair.
+  /// Variance of the slope, for points at the distance `step`; NaN if there is no pair of points.
   double variance(double step) const {
     const double mean = sum / count;
     return (squares / count - mean * mean) / (step * step);
   }
 };
 
-/// The least value, how often it is there, and the range of all others. Of negative values it is
-/// the greatest one.
+/// The minimum of some values, how often it occurs, and the range of all other values. Given
+/// negated values, it finds the maximum.
 struct Extreme {
   double value = infinity, low = infinity, high = -infinity;
   Index count = 0;
@@ -77,7 +78,7 @@ struct Extreme {
 }  // namespace
 
 std::vector<std::string> warnings_of_values(const Field& heights, std::optional<double> unit) {
-  constexpr Index least = 64;  // fewer values may be so by chance
+  constexpr Index least = 64;  // fewer values may look like this by chance
   std::vector<std::string> warnings;
   if (heights.size() < least) return warnings;
   Extreme lowest, highest;
@@ -87,13 +88,13 @@ std::vector<std::string> warnings_of_values(const Field& heights, std::optional<
     lowest.add(height);
     highest.add(-height);
     const double number = height * per_metre;
-    // What a unit multiplied and divided is whole but for rounding.
+    // Multiplication by a unit and division by it leave rounding errors in a whole number.
     whole = whole && !(std::abs(number - std::round(number)) > 1e-12 * std::abs(number));
   }
   if (lowest.count == 0 || !(lowest.high > lowest.value)) return warnings;
   if (whole)
     warnings.emplace_back(
-        "all heights are whole numbers, as counts of a converter are; check their unit");
+        "all heights are whole numbers, like counts of a converter; check their unit");
   const auto constant = [&](const auto& line) { return (line == line(0)).all(); };
   constexpr Index shortest = 8;
   const Index rows = heights.rows(), columns = heights.cols();
@@ -104,10 +105,10 @@ std::vector<std::string> warnings_of_values(const Field& heights, std::optional<
       warnings.emplace_back("the first row of points holds one value; is it one of heights?");
   }
   const auto mark = [&](const Extreme& extreme, double sign) {
-    warnings.push_back(fmt::format(
-        "{} heights of {:.6g} are farther from all others than these span; if undefined points are "
-        "marked so, write nan there",
-        extreme.count, sign * extreme.value * per_metre));
+    warnings.push_back(
+        fmt::format("{} heights of {:.6g} are farther from the others than the range of the "
+                    "others; if they mark undefined points, write nan there",
+                    extreme.count, sign * extreme.value * per_metre));
   };
   if (lowest.is_apart()) mark(lowest, 1);
   if (highest.is_apart()) mark(highest, -1);
@@ -117,14 +118,17 @@ std::vector<std::string> warnings_of_values(const Field& heights, std::optional<
 std::optional<std::string> warning_of_slope(double rms_slope, double unit) {
   constexpr double most = 1;
   if (!(rms_slope > most)) return {};
-  // A slope that is hardly too large is that of a steep surface or of spikes: any unit would make
-  // it far too small. The units leave a thousandfold range between them, down to polished surfaces.
+  // A slope that is too large by less than min_error comes from a steep surface or from spikes: any
+  // other unit would make it far too small. Slopes from `least` to 1, down to those of polished
+  // surfaces, count as plausible.
   constexpr double min_error = 10, least = 1e-3;
   if (rms_slope >= min_error)
     for (const auto& [name, metres] : {std::pair("mm", 1e-3), {"\u00b5m", 1e-6}, {"nm", 1e-9}})
       if (const double slope = rms_slope * metres / unit; slope >= least && slope <= most)
-        return fmt::format("rms slope {:.3g} is above 1: heights in {}? rms slope would be {:.2g}",
-                           rms_slope, name, slope);
+        return fmt::format(
+            "rms slope {:.3g} is above 1; are the heights in {}? Then the rms slope would be "
+            "{:.2g}",
+            rms_slope, name, slope);
   return fmt::format(
       "rms slope {:.3g} is above 1, beyond linear elasticity; check the unit of the heights, and "
       "single points far from their neighbours",
@@ -153,15 +157,15 @@ std::optional<std::string> warning_of_heights(const Surface& surface, double uni
     total.x.add(block.x);
     total.y.add(block.y);
   }
-  // A profile has neighbours along one axis.
+  // A line profile has neighbours along one axis only.
   const auto variance = [](const Differences& differences, double step) {
     return differences.count > 0 ? differences.variance(step) : 0;
   };
   const bool profile = grid.nx == 1 || grid.ny == 1;
-  return warning_of_slope(profile
-                            ? std::sqrt(variance(total.x, grid.dx()) + variance(total.y, grid.dy()))
-                            : std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())),
-                        unit);
+  return warning_of_slope(
+      profile ? std::sqrt(variance(total.x, grid.dx()) + variance(total.y, grid.dy()))
+              : std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())),
+      unit);
 }
 
 }  // namespace salebra

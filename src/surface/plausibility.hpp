@@ -6,26 +6,28 @@
 #include <string>
 #include <vector>
 
-/// Input that is allowed and most likely a mistake, in words for a warning.
+/// Warnings for heights that are valid input but most likely a mistake of the user.
 namespace salebra {
 
-/// A root mean square slope h' above 1, and thus E*h' above E*: surfaces of machines and
-/// instruments have 0.001 to 1, and linear elasticity holds for slopes below 1. As a rule the unit
-/// of the heights was forgotten. The words name the unit with which the slope would be plausible,
-/// where there is one among mm, µm and nm.
-/// unit  of the heights as they were given, m
+/// Warns if the root mean square slope h' is above 1, i.e. if E*h' exceeds E*. Surfaces of machines
+/// and instruments have slopes of 0.001 to 1, and linear elasticity holds for slopes below 1. The
+/// usual cause is a forgotten unit of the heights. The warning names the unit among mm, µm and nm
+/// that makes the slope plausible, if there is one.
+/// unit  of the heights as the user gave them, m
 std::optional<std::string> warning_of_slope(double rms_slope, double unit = 1);
 
-/// warning_of_slope() of the heights less their mean plane, by differences of neighbouring points.
-/// Undefined points take no part; nothing is said of a map without pairs of neighbours along both
-/// axes. A profile has one. Cost: one pass. Collective of a surface that is spread over processes.
+/// warning_of_slope() for the heights less their mean plane, from differences of neighbouring
+/// points. Undefined points are ignored. A map without pairs of neighbours along both axes gives no
+/// warning; a line profile needs pairs along one axis only. Cost: one pass. Collective for a
+/// surface whose rows are distributed over processes.
 std::optional<std::string> warning_of_heights(const Surface& surface, double unit = 1);
 
-/// Values that are most likely no heights, of a map or a profile in one process. Where the file
-/// states no unit: whole numbers, as of a converter, and a first row or column of one value. In
-/// all: a repeated lowest or highest value that is farther from all others than these span, as marks
-/// of undefined points are.
-/// unit  of the heights as they were given, m; nothing where the file states it
+/// Warns of values in a map or profile, held by one process, that are most likely no heights. If
+/// the file states no unit, it looks for whole numbers, as from an A/D converter, and for a first
+/// row or column with a single value. It always looks for a lowest or highest value that occurs
+/// repeatedly and is farther from all other values than their range, like values that mark
+/// undefined points.
+/// unit  of the heights as the user gave them, m; empty if the file states it
 /// Cost: one pass.
 std::vector<std::string> warnings_of_values(const Field& heights, std::optional<double> unit);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Self-affine law of a range of wave numbers with a floor and an attenuation that are not known.
+// Self-affine law in a range of wave numbers, with an unknown floor and attenuation.
 #include "surface/power_law_range.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -13,27 +13,27 @@
 #include <utility>
 #include <vector>
 
-#include "surface/dense_systems.hpp"
+#include "base/numerics/dense_systems.hpp"
 
 namespace salebra::detail {
 namespace {
 
 constexpr double min_hurst = -0.2, greatest_hurst = 1.5;
 
-/// The free numbers of a law.
+/// The free parameters of a law: Hurst exponent, ln of the roll-off, attenuation, and floor.
 enum Parameter : std::size_t { hurst, rolloff, attenuation, floor_share, parameters };
 using Numbers = std::array<double, parameters>;
 using Held = std::array<bool, parameters>;
 
-/// The law in a range of bins. Its amplitude is always the most likely one.
+/// The self-affine law in a range of bins. Its amplitude is always set to the most likely value.
 class LawInRange {
  public:
   LawInRange(std::span<const SpectrumBin> bins, const SelfAffineDensity& density)
       : bins_(bins), density_(density) {
     first_ = std::log(bins.front().wavenumber);
     last_ = std::log(bins.back().wavenumber);
-    // A roll-off below the first bin is none. g is in units of the last wave number, the floor in
-    // those of the law there.
+    // A roll-off below the first bin means no roll-off. The attenuation g is in units of 1/q² at
+    // the last wave number, the floor in units of the law at the last wave number.
     least_ = {min_hurst, first_ - 0.3, 0, 0};
     greatest_ = {greatest_hurst, last_ - 0.7, 6, 50};
   }
@@ -48,7 +48,8 @@ class LawInRange {
   double no_rolloff() const { return least_[rolloff]; }
   std::span<const SpectrumBin> bins() const { return bins_; }
 
-  /// From `from` downhill: Fisher's scoring with a step that is damped until it goes down.
+  /// Minimises the deviance (−2 ln of the likelihood, up to a constant) from a start by Fisher
+  /// scoring; a step is shortened until the deviance falls.
   Fit descend(Numbers from, const Held& held) const {
     for (std::size_t p = 0; p < parameters; ++p)
       from[p] = std::clamp(from[p], least_[p], greatest_[p]);
@@ -57,7 +58,8 @@ class LawInRange {
     double damping = 1e-3;
     for (int iteration = 0; iteration < 25; ++iteration) {
       shapes(best.at, shape);
-      // ln E = ln A + ln shape: the column of ln A is 1.
+      // The expected power is E = amplitude·shape, ln E = ln A + ln shape, so the derivative with
+      // respect to ln A is 1 in each bin.
       Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(Index(bins_.size()), Index(parameters));
       for (std::size_t k = 0; k < bins_.size(); ++k) {
         const double share = bins_[k].wavenumber / bins_.back().wavenumber;
@@ -79,12 +81,13 @@ class LawInRange {
         weights(Index(k)) = bins_[k].modes;
         excess(Index(k)) = bins_[k].power / (best.amplitude * shape[k]) - 1;
       }
-      // The amplitude takes the mean off each column.
+      // The amplitude is free, so the mean over the bins is removed from the derivatives with
+      // respect to each other parameter.
       for (Index p = 0; p < Index(parameters); ++p)
         slopes.col(p).array() -= slopes.col(p).dot(weights) / weights.sum();
       Eigen::VectorXd gradient = slopes.transpose() * (weights.array() * excess.array()).matrix();
       Eigen::MatrixXd information = slopes.transpose() * weights.asDiagonal() * slopes;
-      // What stands at a limit and is pushed beyond it stays.
+      // A parameter at a bound that the step would move beyond the bound is held.
       for (std::size_t p = 0; p < parameters; ++p) {
         const bool below = best.at[p] <= least_[p] && gradient(Index(p)) < 0;
         const bool above = best.at[p] >= greatest_[p] && gradient(Index(p)) > 0;
@@ -118,7 +121,8 @@ class LawInRange {
     return best;
   }
 
-  /// The most likely law, from several roll-offs. Without a plateau: held there.
+  /// The most likely law, from several starting values of the roll-off; without a plateau, the
+  /// roll-off is held below the first bin. value: Hurst exponent to be held.
   Fit fit(bool plateau, std::optional<double> value = {}) const {
     const Held held{value.has_value(), !plateau, false, false};
     Fit best;
@@ -128,14 +132,14 @@ class LawInRange {
       if (position > 0) from[rolloff] = first_ + position * (last_ - first_);
       const Fit found = descend(from, held);
       if (found.deviance < best.deviance) best = found;
-      // As low as chance has it: no other start need be tried.
+      // The deviance is as low as chance makes it, so no other starting value is needed.
       if (best.deviance < 0.8 * static_cast<double>(bins_.size())) break;
     }
     return best;
   }
 
  private:
-  /// E/A at each bin.
+  /// The expected power at each bin, divided by the amplitude.
   void shapes(const Numbers& at, std::vector<double>& shape) const {
     const double q_rolloff = at[rolloff] <= least_[rolloff] ? 0 : std::exp(at[rolloff]);
     const double q_last = bins_.back().wavenumber;
@@ -170,7 +174,7 @@ class LawInRange {
   Numbers least_{}, greatest_{};
 };
 
-/// The interval in which the deviance is above its least by no more than χ² at 5 %.
+/// The interval of the Hurst exponent in which the deviance exceeds its minimum by at most `limit`.
 IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& best, double limit) {
   const auto end = [&](double direction) {
     double inside = best.at[hurst], step = 0.03;
@@ -202,7 +206,8 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     std::size_t begin, end;
     double span;
   };
-  // Ends a third of an octave apart, the longest range first.
+  // Limits of the tested ranges of bins are a third of an octave apart; the longest range comes
+  // first.
   std::vector<std::size_t> positions{0};
   for (std::size_t k = 1; k < bins.size(); ++k)
     if (bins[k].wavenumber > 1.25 * bins[positions.back()].wavenumber) positions.push_back(k);
@@ -211,8 +216,7 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
   for (const std::size_t begin : positions)
     for (const std::size_t end : positions)
       if (end >= begin + fewest)
-        if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber;
-            span >= min_span)
+        if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber; span >= min_span)
           candidates.push_back({begin, end, span});
   std::ranges::stable_sort(candidates, std::greater(), &Candidate::span);
   const auto acceptable = [&](std::size_t begin, std::size_t end, const LawInRange::Fit& fit) {
@@ -227,7 +231,8 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     const double limit = gsl_cdf_chisq_Pinv(0.95, 1);
     PowerLawRange found{candidate.begin, candidate.end, interval_of(range, best, limit)};
     const LawInRange::Fit straight = range.fit(false);
-    // Where neither floor nor attenuation shows, the law without them is the better guess.
+    // If neither floor nor attenuation is significant, the law without floor and attenuation is the
+    // better estimate.
     Numbers without = best.at;
     without[attenuation] = without[floor_share] = 0;
     const LawInRange::Fit plain = range.descend(without, {false, false, true, true});
@@ -239,7 +244,8 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     }
     found.rolloff_seen = straight.deviance - best.deviance > limit &&
                          best.at[rolloff] > std::log(bins[candidate.begin].wavenumber);
-    // What the choice of the range may do: the short waves are where instruments show.
+    // Repeat the fit without the shortest half octave, where errors of instruments appear: the
+    // difference shows the effect of the choice of the range.
     const double shorter = bins[candidate.end - 1].wavenumber / std::numbers::sqrt2;
     std::size_t end = candidate.end;
     while (end > candidate.begin + fewest && bins[end - 1].wavenumber > shorter) --end;
@@ -248,7 +254,7 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
                              .at[hurst];
     found.hurst.low = std::min(found.hurst.low, other);
     found.hurst.high = std::max(found.hurst.high, other);
-    // An interval from 0 to 1 excludes nothing.
+    // An interval of the Hurst exponent that covers 0 … 1 excludes nothing.
     if (found.hurst.low <= 0 && found.hurst.high >= 1) return {};
     if (best.at[rolloff] > range.no_rolloff()) found.q_rolloff = std::exp(best.at[rolloff]);
     found.amplitude = best.amplitude /

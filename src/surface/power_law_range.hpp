@@ -9,35 +9,36 @@
 
 namespace salebra::detail {
 
-/// A mean of powers over neighbouring wave numbers.
+/// Mean of the powers of modes of neighbouring wave numbers.
 struct SpectrumBin {
-  double wavenumber = 0;  ///< mean, rad/m
-  double power = 0;       ///< mean
-  double modes = 0;       ///< independent exponential powers in it
+  double wavenumber = 0;  ///< mean wave number of the modes, rad/m
+  double power = 0;       ///< mean power of the modes
+  double modes = 0;       ///< number of independent exponentially distributed powers in the mean
 };
 
-/// Power spectral density of a self-affine surface over its plateau, or that of its profiles, as
-/// the window sees it.
+/// Power spectral density of a self-affine surface, or of its profiles, at wave number q, relative
+/// to its amplitude and smoothed like a spectrum with a window.
 using SelfAffineDensity = std::function<double(double q, double hurst, double q_rolloff)>;
 
-/// The most likely law of a range of bins.
+/// The most likely power law and the range of bins in which it holds.
 struct PowerLawRange {
-  std::size_t begin = 0, end = 0;  ///< the bins; none where begin == end
+  std::size_t begin = 0, end = 0;  ///< numbers of the bins; begin == end if no range was found
   IntervalEstimate hurst;
   double q_rolloff = 0;       ///< rad/m; 0 without a plateau
-  bool rolloff_seen = false;  ///< a law without a plateau is less likely by more than 5 % allow
-  double amplitude = 0;       ///< of the density
+  bool rolloff_seen = false;  ///< a likelihood-ratio test at 5 % rejects the law without a plateau
+  double amplitude = 0;       ///< factor A of the density
   bool found() const { return end > begin; }
 };
 
-/// Fits, over the longest range of bins that it describes,
-///     E(q) = A·density(q)·exp(−g q²) + floor,      g >= 0, floor >= 0.
-/// The floor is what the points fold into the range from waves shorter than two cells, and noise; g
-/// is what pixels, lenses and tips take away. Neither is known, hence neither is held: the interval
-/// of H is that of a likelihood-ratio test at 5 % in which they are free, as is the roll-off, and
-/// holds the most likely H of the range without its shortest half octave. A range counts if its deviance
-/// is not above the 90 % point. An interval that holds all of 0 … 1 is none.
-/// min_span: the least ratio of the wave numbers of a range.
+/// Finds the longest range of bins in which the mean power E follows the law
+///     E(q) = A·density(q)·exp(−g q²) + floor,      g >= 0, floor >= 0,
+/// with an amplitude A. The floor is noise and the power that sampling folds into the range from
+/// waves shorter than two cells; g is the attenuation by pixels, lenses and tips. Floor and g are
+/// not known, so both are fitted, as is the roll-off. The interval of the Hurst exponent comes from
+/// a likelihood-ratio test at 5 % with these parameters free; it also contains the most likely
+/// exponent of the range without its shortest half octave. A range counts if its deviance does not
+/// exceed the 90 % point of χ². An interval that covers all of 0 … 1 counts as no result.
+/// min_span: minimum ratio of the largest to the smallest wave number of a range.
 PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
                                   const SelfAffineDensity& density, double min_span);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Isotropic self-affine surface of a line profile, by integration of its spectrum.
+// Isotropic self-affine surface from a line profile, by integration of its spectrum.
 #include <gsl/gsl_integration.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct FreeTable {
     gsl_integration_glfixed_table_free(table);
   }
 };
-/// ∫cos^power θ dθ by a Gauss–Legendre rule.
+/// ∫cos^power θ dθ between two angles, by a Gauss–Legendre rule.
 double cosine_integral(double power, double from, double to) {
   static const std::unique_ptr<gsl_integration_glfixed_table, FreeTable> table(
       gsl_integration_glfixed_table_alloc(cosine_nodes));
@@ -45,26 +45,27 @@ double cosine_integral(double power, double from, double to) {
 
 constexpr double endless = 1e300;
 
-/// Power spectral density of profiles under Hann's window, which mixes each wave with its
-/// neighbours by 1 : 4 : 1. step: from one wave to the next.
+/// Power spectral density of profiles under Hann's window, which mixes each wave with its two
+/// neighbours in the ratio 1 : 4 : 1.
+/// step  distance between two neighbouring waves, rad/m
 detail::SelfAffineDensity windowed_density(double step, double q_short) {
   return [=](double q, double hurst, double q_rolloff) {
-    // Without a plateau the power law begins beyond the profile.
+    // Without a plateau the power law begins at a wave much longer than the profile.
     const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * step;
     const auto at = [&](double index) { return profile_density(index, hurst, begin, q_short); };
-    // Beyond some waves it makes less of a difference than the bins can show.
+    // At this wave number the window changes the density by less than the bins can resolve.
     if (q > 24 * step) return at(q);
     return (at(q - step) + 4 * at(q) + at(q + step)) / 6;
   };
 }
 
-/// Where the power falls below a quarter of the law, and soon to a twentieth; endless where it does
-/// not.
+/// Wave number at which the power falls below a quarter of the law, if it falls below a twentieth
+/// soon after; infinite if there is no such wave number.
 double end_of_law(std::span<const detail::SpectrumBin> bins, const detail::PowerLawRange& law,
                   const detail::SelfAffineDensity& density) {
-  // Long waves are too few: some of them lack power by chance.
+  // The first bins are left out: they have so few modes that some of them lack power by chance.
   for (std::size_t i = bins.size() / 3; i < bins.size(); ++i) {
-    const auto partition = [&](const detail::SpectrumBin& bin) {
+    const auto share = [&](const detail::SpectrumBin& bin) {
       return bin.power / (law.amplitude * density(bin.wavenumber, law.hurst.value, law.q_rolloff));
     };
     if (share(bins[i]) > 0.25) continue;
@@ -76,8 +77,8 @@ double end_of_law(std::span<const detail::SpectrumBin> bins, const detail::Power
   return endless;
 }
 
-/// Twice the longest straight piece of a profile that was interpolated: shorter waves are the
-/// interpolation's. 0 where four fifths of its points are not on such pieces.
+/// Wavelength below which the waves of a profile come from interpolation: twice its longest
+/// straight piece. 0 if fewer than four fifths of the points lie on straight pieces.
 double interpolated_wavelength(const Surface& profile) {
   const Index n = profile.grid.nx;
   const double least = 1e-12 * profile.heights.abs().maxCoeff();
@@ -95,7 +96,8 @@ double interpolated_wavelength(const Surface& profile) {
 
 std::vector<detail::SpectrumBin> profile_bins(const ProfilePsd& psd) {
   constexpr std::size_t mixed = 3;
-  // Neighbours under Hann's window are correlated: 35/18 of them count as one.
+  // Neighbouring modes under Hann's window are correlated: 35/18 modes count as one independent
+  // mode.
   constexpr double independent = 18. / 35;
   constexpr double ratio = 1.12;
   std::vector<detail::SpectrumBin> bins;
@@ -109,7 +111,8 @@ std::vector<detail::SpectrumBin> profile_bins(const ProfilePsd& psd) {
     bins.back().power += psd.psd[k];
     bins.back().modes += 1;
   }
-  // A spectrum that no law describes to better than three hundredths.
+  // Relative error of the mean power of a bin that is tolerated, because no law describes a
+  // spectrum more closely.
   constexpr double forgiven = 0.03;
   for (detail::SpectrumBin& bin : bins) {
     bin.wavenumber = std::exp(bin.wavenumber / bin.modes);
@@ -126,7 +129,8 @@ double profile_density(double q, double hurst, double q_rolloff, double q_short)
   double density = 0;
   if (q < q_rolloff) density += 2 * std::sqrt(q_rolloff * q_rolloff - q * q);
   const double from = std::acos(q / std::max(q, q_rolloff)), to = std::acos(q / q_short);
-  // The whole quarter of a turn has a closed form, √π Γ(H+½)/(2 Γ(H+1)).
+  // The integral of cos^{2H} over a full quarter turn has the closed form √π Γ(H+½)/(2 Γ(H+1)),
+  // with the Hurst exponent H.
   const double integral =
       q >= q_rolloff && q < 1e-9 * q_short
           ? std::sqrt(pi) / 2 * std::tgamma(hurst + 0.5) / std::tgamma(hurst + 1)
@@ -138,7 +142,7 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   profile.require_complete("the spectrum of a profile");
   require(profile.grid.ny == 1 && profile.grid.nx >= 2, "profile",
           std::to_string(profile.grid.nx) + " x " + std::to_string(profile.grid.ny) + " points",
-          "must be one line of two points at least");
+          "must be one line of at least two points");
   detail::quiet_gsl();
   const Surface level = detrended(profile, Detrend::plane);
   ProfileFit fit;
@@ -153,7 +157,8 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   if (!(fit.rms_height > 1e-9 * profile.heights.abs().maxCoeff()) || n < fewest) return fit;
   if (shortest_wavelength == 0) shortest_wavelength = detail::asymmetric_wavelength(level);
   const double unreliable = std::max(shortest_wavelength, interpolated_wavelength(profile));
-  // Waves of less than two and a half cells are what points fold most, and no law describes them.
+  // Waves shorter than two and a half cells suffer most from aliasing, and no law describes their
+  // power.
   const double highest =
       std::min(0.8 * pi / level.grid.dx(), unreliable > 0 ? 2 * pi / unreliable : endless);
   std::vector<detail::SpectrumBin> bins = profile_bins(profile_psd(level, Axis::x, Window::hann));
@@ -168,7 +173,8 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   };
   double q_short = endless;
   detail::PowerLawRange law;
-  // Short of its end, the law's own profiles lack what lies beyond.
+  // If the law ends within the range, the spectrum of profiles lacks the power of waves beyond that
+  // end.
   for (int round = 0; round < 3; ++round) {
     constexpr double steep = 0.85;
     const auto density = windowed_density(step, q_short);

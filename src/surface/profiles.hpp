@@ -12,14 +12,16 @@
 
 namespace salebra::detail {
 
-/// The profiles of a surface along an axis: its columns along x, its rows along y. Each process has
-/// some of them.
+/// The profiles of a surface along an axis (its columns along x, its rows along y), distributed
+/// over the processes.
 inline RowPartition profiles_of(const Surface& surface, Axis axis) {
-  return axis == Axis::x ? RowPartition(surface.communicator, surface.grid.ny) : surface.partition();
+  return axis == Axis::x ? RowPartition(surface.communicator, surface.grid.ny)
+                         : surface.partition();
 }
 
-/// One Value for each block of profiles of this process. add(value of its block, heights) takes
-/// every profile, whose heights it may change; those of a block come in order. Collective.
+/// Returns one Value for each block of profiles of this process. add(value of the block, heights of
+/// a profile) is called for every profile, in order within a block, and may change the heights.
+/// Collective.
 template <class Value, class Add>
 std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& start,
                                 const Add& add) {

@@ -33,7 +33,7 @@ ConvertedPsd labelled(ConvertedPsd psd, std::string wavenumber_unit, std::string
 
 void require_equal(double along_x, double along_y, const char* field) {
   require(std::abs(along_x - along_y) <= 1e-9 * along_x, field, along_y / along_x,
-          "times that along x has no wave number in this convention; use one in rad/m");
+          "times the size along x has no wave number in this convention; use one in rad/m");
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 
 namespace salebra {
 
-/// How a power spectral density is written down. L a square surface's side, dx its step; the same
-/// surface in each:
+/// Conventions for writing a power spectral density, each with the mean square height of the same
+/// surface. C is the density over the wave vector, L the side of a square surface, dx its cell. "C"
+/// in the second line, W and P are what the convention writes, n = qL/2π counts modes and f = q
+/// dx/2π cycles per sample.
 enum class PsdConvention {
   salebra,             ///< C over q in rad/m, m⁴:                     h_rms² = 2π ∫ q C dq
   surface_topography,  ///< (2π)² C over q in rad/m, m⁴:               h_rms² = (1/2π) ∫ q C dq
@@ -29,13 +31,13 @@ struct EnumNames<PsdConvention> {
        {PsdConvention::rfgen, "rfgen"}});
 };
 
-/// One in any convention, with what it takes to read it.
+/// A spectrum written in one of the conventions, with its units and normalisation.
 struct ConvertedPsd {
   std::vector<double> wavenumber;
   std::vector<double> psd;
   std::string wavenumber_unit;  ///< "rad/m", "1"
   std::string psd_unit;         ///< "m^4", "m^3", "m^2"
-  std::string normalisation;    ///< what the mean square height is
+  std::string normalisation;    ///< formula of the mean square height
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ConvertedPsd>) {
@@ -47,13 +49,14 @@ constexpr void describe(auto&& visit, std::type_identity<ConvertedPsd>) {
   visit(&S::normalisation, Kept{"normalisation", "what the mean square height is"});
 }
 
-/// Throws InvalidInput for Tamaas' integers where lx and ly differ, and for cycles in a sample
-/// where dx and dy do.
+/// Converts a radial spectrum. Throws InvalidInput for Tamaas, which counts modes by integers, if
+/// lx and ly differ, and for rfgen, which uses cycles per sample, if dx and dy differ.
 ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
                        PsdConvention convention);
 
-/// Profiles have C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² =
-/// (1/π)∫C dq over q > 0 in SurfaceTopography. Throws InvalidInput for the others, which have none.
+/// Converts a spectrum of profiles C₁. The conventions salebra and Gwyddion write C₁ with h_rms² =
+/// ∫C₁ dq over all q; SurfaceTopography writes C = 2πC₁ with h_rms² = (1/π)∫C dq over q > 0. Throws
+/// InvalidInput for all other conventions, which define no spectrum of profiles.
 ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention);
 
 }  // namespace salebra

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interpolation of heights on a finer grid: Fourier where periodic, a periodic bicubic spline
-// elsewhere.
+// Interpolates heights on a finer grid: by Fourier modes if periodic, otherwise by a periodic
+// bicubic spline.
 #include "refine.hpp"
 
 #include <array>
@@ -42,8 +42,8 @@ Field fourier(const Field& heights, Index factor) {
     const Index wave = 2 * i <= nx ? i : i - nx;
     for (Index j = 0; j < width; ++j) {
       std::complex<double> mode = coarse[static_cast<std::size_t>(i * width + j)] / points;
-      // The wave of two points stands for two, of both signs. Along y the half-spectrum of the fine
-      // grid implies the other.
+      // A mode at the Nyquist frequency of x stands for both signs of the wave number. For y, the
+      // half-spectrum of the fine grid implies the opposite sign.
       const bool middle_x = 2 * i == nx, middle_y = 2 * j == ny;
       if (middle_x) mode /= 2;
       if (middle_y) mode /= 2;
@@ -57,8 +57,8 @@ Field fourier(const Field& heights, Index factor) {
   return heights_of(fine, fine_nx, factor * ny);
 }
 
-// Coefficients of the cubic B-splines whose sum passes through the heights: (c₋ + 4c + c₊)/6 = h
-// along each axis.
+// Coefficients c of the cubic B-splines whose sum passes through the heights h: (c₋ + 4c + c₊)/6 =
+// h along each axis, with the neighbouring coefficients c₋ and c₊.
 Field spline_coefficients(const Field& heights) {
   const Index nx = heights.rows(), ny = heights.cols(), width = ny / 2 + 1;
   Modes modes = modes_of(heights);
@@ -74,7 +74,7 @@ Field spline_coefficients(const Field& heights) {
   return heights_of(modes, nx, ny);
 }
 
-// Along x: row k of the result lies k/factor rows after row 0.
+// Interpolates along x: row k of the result lies k/factor coarse rows after the first row.
 Field spline_rows(const Field& coefficients, Index factor) {
   const Index rows = coefficients.rows();
   Field fine(rows * factor, coefficients.cols());

@@ -10,19 +10,21 @@
 
 namespace salebra::detail {
 
-/// √(x² + y²) for lengths whose squares are normal numbers, in a fifth of the time of std::hypot.
+/// √(x² + y²) for lengths whose squares are normal numbers; takes a fifth of the time of
+/// std::hypot.
 inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// Weighted means over rings about a point, of a spectrum or a correlation. The limits of the rings
-/// are in the ratio 2^(1/rings_per_octave), the first half a ring below `innermost`, so that no
-/// radius of a square lattice lies on a limit where rounding would decide. The radius 0 is a ring
-/// of its own. Sums are kept by the caller, who may add those of several parts.
+/// Weighted means of a spectrum or a correlation over rings about a point. The inner and the outer
+/// radius of a ring are in the ratio 2^(1/rings_per_octave). The first limit is half a ring below
+/// the radius `innermost`, because no radius of a square lattice may lie on a limit, where rounding
+/// would decide on the ring. The radius 0 is a ring of its own. The caller keeps the sums and may
+/// add the sums of several parts.
 template <std::size_t quantities>
 class RingMeans {
  public:
   struct Ring {
-    double weight = 0;                      ///< > 0
-    double radius = 0;                      ///< mean
+    double weight = 0;                      ///< sum of the weights, > 0
+    double radius = 0;                      ///< mean radius
     std::array<double, quantities> mean{};  ///< of each quantity
   };
 
@@ -35,13 +37,15 @@ class RingMeans {
           k == 0 ? 0 : innermost * std::exp2((static_cast<double>(k) - 1.5) / rings_per_octave));
   }
 
-  /// Numbers that the sums of all rings are.
+  /// Length of the array that holds the sums of all rings.
   std::size_t size() const { return rings_ * stride; }
 
-  /// near: a ring that may be the radius's; afterwards it is.
+  /// Adds the values at a radius. near: first guess of the ring that contains the radius; set to
+  /// that ring.
   void add(double radius, double weight, const std::array<double, quantities>& values,
            std::span<double> sums, std::size_t& near) const {
-    // Well between the limits of a ring, no logarithm is needed to tell it.
+    // Well inside the ring `near`, the number of the ring need not be computed, which takes a
+    // logarithm.
     if (near == 0 ||
         !(radius > limits_[near] * (1 + 1e-9) && radius < limits_[near + 1] * (1 - 1e-9)))
       near = std::min(number_of(radius), rings_ - 1);
@@ -51,7 +55,7 @@ class RingMeans {
     for (std::size_t k = 0; k < quantities; ++k) sum[2 + k] += weight * values[k];
   }
 
-  /// The rings from the innermost on; those of no weight are left out.
+  /// The rings from the innermost on, without rings of zero weight.
   std::vector<Ring> rings(const std::vector<double>& sums) const {
     std::vector<Ring> means;
     for (std::size_t at = 0; at < sums.size(); at += stride) {
@@ -73,7 +77,7 @@ class RingMeans {
   }
 
   double innermost_;
-  std::vector<double> limits_;  ///< inner ones, and the outer one of the last ring
+  std::vector<double> limits_;  ///< inner limit of each ring, and the outer limit of the last one
   int rings_per_octave_;
   std::size_t rings_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// RMS slope and curvature over distance, and the shortest wavelength that is reliable.
+// RMS slope and curvature against distance, and the shortest reliable wavelength.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,8 +32,8 @@ struct Sums {
   }
 };
 
-// Places 0 … 3 and 4 … 7 of each eight points: sums of these, which are then added in pairs, have
-// the same bits for every vector width.
+// Partial sums over the positions 0 … 3 and 4 … 7 of each eight points. They are added in pairs at
+// the end, which gives the same bits for every vector width.
 using Four [[gnu::vector_size(32)]] = double;
 using FourCounts [[gnu::vector_size(32)]] = std::int64_t;
 
@@ -90,8 +90,9 @@ SALEBRA_INLINE Sums stencils(const double* heights, std::ptrdiff_t count, std::p
   return sums;
 }
 
-/// All differences of a profile over `lag` points, which go on at least as far before and behind
-/// it. tested: whether some of them are undefined.
+/// Sums over all first and second differences of a profile at a distance of `lag` points; the
+/// profile continues by at least `lag` points on both sides. tested: whether some heights are
+/// undefined.
 SALEBRA_VECTOR_WIDTHS
 Sums differences(const double* heights, std::ptrdiff_t count, std::ptrdiff_t lag, bool tested) {
   return tested ? stencils<true>(heights, count, lag) : stencils<false>(heights, count, lag);
@@ -138,7 +139,7 @@ ScaleDependence scale_dependence(const Surface& surface, Axis axis) {
     result.stencils.push_back(sums.curvatures);
   }
   require(!result.spacing.empty() && n >= 3, "heights", axis == Axis::x ? "along x" : "along y",
-          "have no three neighbours that are defined; fill or crop them");
+          "do not have three defined neighbours; fill or crop them");
   return result;
 }
 
@@ -167,7 +168,7 @@ ReliabilityLimit short_wavelength_limit(const Surface& surface, const Reliabilit
     if (k == 0) continue;
     double length = std::numeric_limits<double>::infinity();
     if (k < scales.spacing.size()) {
-      // The curvature passes the limit between two spacings: straight between them.
+      // The curvature passes the limit between two spacings; interpolate linearly between them.
       const double low = scales.min_curvature[k - 1], high = scales.min_curvature[k];
       const double part = (sharpest - low) / (high - low);
       length = 2 * (scales.spacing[k - 1] + part * (scales.spacing[k] - scales.spacing[k - 1]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Binned periodograms and heights by wavelength of scans and profiles, of scan_spectrum.hpp.
+// Binned periodograms of scans and profiles, and heights by wavelength.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -76,11 +76,11 @@ void require_instrument(const ScanInstrument& instrument, double weight) {
   fraction(instrument.scan_calibration, "scan_calibration");
   require(
       std::isnan(instrument.noise) || (instrument.noise >= 0 && std::isfinite(instrument.noise)),
-      "noise", instrument.noise, "must be >= 0 and finite; leave it out to have it found");
+      "noise", instrument.noise, "must be >= 0 and finite; leave it out to estimate it");
   require_positive(weight, "weight");
 }
 
-/// Slope that least squares finds in values at −(n−1)/2 … (n−1)/2.
+/// Least-squares slope of n values at the positions −(n−1)/2 … (n−1)/2.
 template <class Values>
 double slope_of(const Values& values, Index n) {
   double sum = 0;
@@ -93,7 +93,8 @@ double slope_of(const Values& values, Index n) {
 /// The heights less their least-squares plane.
 Field levelled(const Field& heights) {
   const Index nx = heights.rows(), ny = heights.cols();
-  // On a complete grid, the two slopes are those of the means over the other axis.
+  // On a complete grid, the slope of the plane along an axis is the slope of the means over the
+  // other axis.
   const Eigen::ArrayXd rows = heights.rowwise().mean();
   Eigen::ArrayXd columns = Eigen::ArrayXd::Zero(ny);
   for (Index i = 0; i < nx; ++i) columns += heights.row(i).transpose();
@@ -109,7 +110,7 @@ Field levelled(const Field& heights) {
   return level;
 }
 
-/// Sums of power and numbers of modes by bin.
+/// Sums of the power of modes, and numbers of modes, in each bin.
 struct BinSums {
   std::vector<double> limits, power;
   std::vector<double> modes;
@@ -117,7 +118,8 @@ struct BinSums {
   explicit BinSums(std::vector<double> edges)
       : limits(std::move(edges)), power(limits.size() - 1), modes(limits.size() - 1) {}
 
-  /// Bin of κ² at or after `from`, beyond the last one where κ lies outside.
+  /// Number of the bin that contains the mode κ, given κ² and a bin to search upwards from; the
+  /// number of bins if κ is above all bins.
   std::size_t bin_of(double square, std::size_t from) const {
     std::size_t bin = from;
     while (bin < power.size() && square >= limits[bin + 1] * limits[bin + 1]) ++bin;
@@ -125,7 +127,8 @@ struct BinSums {
   }
 };
 
-/// Power of the modes of one taper, times `scale`, of the bins from `first` on.
+/// Adds to the bins from `first` on the power of the modes of the heights under Hann's taper, times
+/// `scale`.
 void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size_t first,
               double scale, BinSums& sums) {
   const Index nx = level.rows(), ny = level.cols(), columns = ny / 2 + 1;
@@ -136,7 +139,7 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
     tapered.row(i) = level.row(i) * along_y * wx[static_cast<std::size_t>(i)];
   RealFft2D<double> transform(nx, ny);
   const auto buffer = large_array<std::complex<double>>(static_cast<std::size_t>(nx) *
-                                                      static_cast<std::size_t>(columns));
+                                                        static_cast<std::size_t>(columns));
   transform.forward(tapered.data(), buffer.get());
   for (Index i = 0; i < nx; ++i) {
     const Index k = 2 * i <= nx ? i : i - nx;
@@ -149,21 +152,24 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
       bin = sums.bin_of(square, bin);
       if (bin == sums.power.size()) break;
       const double count = j == 0 || 2 * j == ny ? 1 : 2;
-      sums.power[bin] += count * scale * std::norm(buffer[static_cast<std::size_t>(i * columns + j)]);
+      sums.power[bin] +=
+          count * scale * std::norm(buffer[static_cast<std::size_t>(i * columns + j)]);
       sums.modes[bin] += count;
     }
   }
 }
 
-/// Power of the modes of the bins before `last`, mean over the products of two sine tapers each
-/// way. Few modes are asked for: sums along the axes cost less than transforms.
+/// Adds to the bins before `last` the power of the modes of the heights, averaged over products of
+/// two sine tapers along each axis. Only a few modes are needed, so sums along the axes cost less
+/// than Fourier transforms.
 void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::size_t last,
                  double scale, BinSums& sums) {
   const Index nx = level.rows(), ny = level.cols();
   const double highest = sums.limits[last];
   const auto count_x = static_cast<Index>(highest / modes.step_x);
   const auto count_y = modes.step_y > 0 ? static_cast<Index>(highest / modes.step_y) : 0;
-  // Rows of cos and −sin for k = 0 … count of both tapers, for each point.
+  // For each point of an axis, its taper times cos and −sin of the modes k = 0 … count, for both
+  // tapers.
   const auto waves = [](Index n, Index count) {
     const Index columns = n == 1 ? 1 : 4 * (count + 1);
     Field table = Field::Ones(n, columns);
@@ -181,7 +187,7 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
   };
   const bool line = ny == 1;
   const Field of_x = waves(nx, count_x), of_y = waves(ny, count_y);
-  // A matrix product of Eigen may add in an order that depends on the threads.
+  // The matrix product is not Eigen's, whose order of addition may depend on the number of threads.
   Field both = Field::Zero(of_x.cols(), of_y.cols());
   std::vector<double> row(static_cast<std::size_t>(of_y.cols()));
   for (Index i = 0; i < nx; ++i) {
@@ -203,12 +209,14 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
           if (bin >= last) continue;
           const Index at_x = 2 * (t * (count_x + 1) + k),
                       at = line ? 0 : 2 * (u * (count_y + 1) + j);
-          // (a + ib)(c + id) of the waves along x and y: of each quantity both signs of k.
+          // The product (a + ib)(c + id) of the waves along x and y, and the one with −b, give both
+          // signs of k.
           const double rr = both(at_x, at), ir = both(at_x + 1, at),
                        ri = line ? 0 : both(at_x, at + 1), ii = line ? 0 : both(at_x + 1, at + 1);
           const double plus = (rr - ii) * (rr - ii) + (ri + ir) * (ri + ir),
                        minus = (rr + ii) * (rr + ii) + (ri - ir) * (ri - ir);
-          // Modes (k, j), (−k, j) and their conjugates; those on an axis are one pair.
+          // The modes (k, j), (−k, j) and their conjugates; if k or j is 0, (−k, j) is the
+          // conjugate of (k, j) or equal to it.
           const double pairs = k > 0 && j > 0 ? 2 : 1, of_pair = 2.0 / (2.0 * tapers_y);
           sums.power[bin] += scale * of_pair * (pairs == 2 ? plus + minus : plus);
           sums.modes[bin] += pairs * of_pair;
@@ -287,13 +295,14 @@ ScanSpectrum spectrum_of_map(const Field& heights, const Grid2D& grid,
   grid.validate();
   require_instrument(instrument, weight);
   require(std::min(grid.nx, grid.ny) >= 32, "grid", std::min(grid.nx, grid.ny),
-          "points along a side are too few for a map's spectrum, which needs 32; give its lines as "
-          "profiles");
+          "points along a side are too few for the spectrum of a map, which needs 32; give its "
+          "lines as profiles");
   const double ratio = std::max(grid.lx, grid.ly) / std::min(grid.lx, grid.ly);
   require(ratio <= 4, "grid", ratio,
-          "is the ratio of the sides, which must be <= 4; crop it, or give its lines as profiles");
+          "is the ratio of the sides, which must be <= 4; crop the scan, or give its lines as "
+          "profiles");
   require_that(heights.rows() == grid.nx && heights.cols() == grid.ny, "heights",
-               "have not the shape of the grid");
+               "do not have the shape of the grid");
   require_that(heights.allFinite(), "heights", "have undefined points; fill or crop them");
   return spectrum_of(heights, grid, instrument, weight, std::move(name));
 }
@@ -302,7 +311,7 @@ ScanSpectrum spectrum_of_line(const std::vector<double>& heights, double length,
                               const ScanInstrument& instrument, double weight, std::string name) {
   require_instrument(instrument, weight);
   require_positive(length, "length");
-  require(heights.size() >= 64, "heights", heights.size(), "points are too few; give 64 or more");
+  require(heights.size() >= 64, "heights", heights.size(), "points given; give 64 or more");
   const Field line =
       Eigen::Map<const Eigen::ArrayXd>(heights.data(), static_cast<Index>(heights.size()));
   require_that(line.allFinite(), "heights", "have undefined points; fill or crop them");

@@ -11,26 +11,27 @@
 #include <span>
 #include <vector>
 
+#include "base/numerics/dense_systems.hpp"
 #include "ring_means.hpp"
-#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double ended = 1e-3;        ///< of the law, where power counts as none
-constexpr double bins_per_unit = 64;  ///< of ln q, for the likelihood
+constexpr double ended = 1e-3;        ///< power below this part of the law counts as zero
+constexpr double bins_per_unit = 64;  ///< bins per unit of ln q, for the likelihood
 
-/// Modes of nearly one wave number: a mean over them is enough for a law that is straight in ln q.
+/// Modes of nearly equal wave number q. Their mean power suffices to fit a law that is straight in
+/// ln q.
 struct Ring {
   double x = 0;       ///< ln q
-  double power = 0;   ///< mean
-  double weight = 0;  ///< independent complex amplitudes
+  double power = 0;   ///< mean power
+  double weight = 0;  ///< number of independent complex amplitudes
 };
 
-/// body(q, power, independent complex amplitudes) for the modes of the columns begin … end of this
-/// process but for q = 0.
+/// Calls body(q, power, number of independent complex amplitudes) for each mode in the columns
+/// begin … end − 1 of this process, except q = 0.
 template <class Body>
 void for_modes(const PowerSpectrum& spectrum, Index begin, Index end, const Body& body) {
   const Index first = spectrum.columns().begin();
@@ -67,11 +68,11 @@ std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, doubl
   return rings;
 }
 
-/// Twice the negative logarithm of the greatest likelihood of ln C = a − b·max(0, x − kink) over a
-/// and b.
+/// Minus twice the maximum log-likelihood, over a and b, of the law ln C = a − b·max(0, x − kink)
+/// with x = ln q.
 double deviance(const std::vector<Ring>& rings, double kink) {
-  // The likelihood of exponential variates is log-concave in a and b: Newton's method, halving a
-  // step that goes too far.
+  // The likelihood of exponentially distributed powers is log-concave in a and b, so Newton's
+  // method converges if steps that go too far are halved.
   const auto basis = [&](const Ring& ring) {
     return Eigen::Vector2d(1, -std::max(0.0, ring.x - kink));
   };
@@ -123,7 +124,8 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   const std::vector<Ring> rings = fine_rings(spectrum, lowest, hurst.wavenumber_max);
   if (rings.size() < 8) return {};
   const double first = rings.front().x, last = rings.back().x;
-  // ±: a kink below the first ring is no plateau at all, and one near the last leaves no law.
+  // Position of the kink, the roll-off: before the first ring it means no plateau, near the last
+  // ring it leaves no power law.
   constexpr int steps = 200;
   const auto position = [&](int k) { return first + (last - first) * k / steps; };
   std::vector<double> values;
@@ -132,7 +134,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   const auto best = static_cast<int>(least - values.begin());
   const double limit = gsl_cdf_chisq_Pinv(0.95, 1) * spectrum.correlated_modes;
 
-  // The least deviance between the places, by golden section.
+  // Golden-section search for the minimum of the deviance near the best of the tested positions.
   constexpr double golden = 0.6180339887498949;
   double left = position(std::max(best - 1, 0)), right = position(std::min(best + 1, steps));
   for (int k = 0; k < 30; ++k) {
@@ -145,7 +147,8 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   const double kink = (left + right) / 2;
   const double threshold = std::min(*least, deviance(rings, kink)) + limit;
   if (values.front() < threshold || values.back() < threshold) return {};
-  // Where the deviance passes the threshold, from either side inwards.
+  // Finds where the deviance crosses the threshold, searching inwards from the first or last
+  // position.
   const auto crossing = [&](int from, int direction) {
     int k = from;
     while (values[static_cast<std::size_t>(k)] >= threshold && k != best) k += direction;
@@ -173,8 +176,8 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
         });
       });
   const double min_power = ended * sums[0] / sums[1];
-  // The least (sign 1) or greatest (−1) wave number beyond one, of all modes or of those with
-  // power.
+  // The minimum (sign 1) or maximum (sign −1) of the wave numbers above `from`, of all modes or
+  // only of modes with power.
   const auto extreme = [&](double sign, double from, bool with_power) {
     double best = std::numeric_limits<double>::infinity();
     for (const double of_block : parallel::map_blocks_of<double>(
@@ -189,16 +192,16 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
       best = std::min(best, of_block);
     return sign * spectrum.communicator.min_of(best);
   };
-  // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them
-  // is the end.
+  // A mode whose power follows the law has less than a thousandth of the law's power with a
+  // probability of a thousandth, so a run of such modes marks the cut-off.
   const double low = extreme(-1, hurst.wavenumber_min, true);
   const double high = extreme(1, low, false);
   const double last = extreme(-1, low, false);
   if (!std::isfinite(low) || !std::isfinite(high)) return {};
   const Grid2D& grid = spectrum.grid;
   const double step = 2 * pi / std::min(grid.lx, grid.ly);
-  // Modes of no power that lie beyond are all there are: with fewer than a ring of them the end may
-  // be the lattice's own.
+  // The wave number `last` is the largest of all modes. If the modes without power fill less than a
+  // ring, the cut-off may just be the largest wave number of the grid.
   if (last < high + 4 * step) return {};
   const double margin = spectrum.windowed ? 2 * step : 0;
   const double middle = (low + high) / 2 - margin / 2;

@@ -8,7 +8,7 @@
 
 namespace salebra::detail {
 
-/// The check of Surface::require_complete_rows without its demand that every height be defined.
+/// Checks a surface as Surface::require_complete_rows() does, but allows undefined heights.
 inline void require_shape_of_rows(const Surface& surface) {
   surface.grid.validate();
   const Index rows = surface.partition().count();
@@ -18,7 +18,7 @@ inline void require_shape_of_rows(const Surface& surface) {
               std::to_string(surface.grid.ny));
 }
 
-/// Requires it of a surface in one process.
+/// Like require_shape_of_rows(), for a surface in one process.
 inline void require_shape(const Surface& surface) {
   surface.require_whole("this calculation");
   require_shape_of_rows(surface);

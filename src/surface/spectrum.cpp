@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Power spectral density of a surface with windows: two-dimensional, radial, and of profiles.
+// Power spectral density with windows: two-dimensional, radial, and of profiles.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -26,7 +26,7 @@ Window chosen(Window window, const Surface& surface) {
   return surface.periodic ? Window::none : Window::hann;
 }
 
-/// Weights along one axis, normalised to ⟨w²⟩ = 1.
+/// Weights w of a window along one axis, normalised to a mean of w² of 1.
 Eigen::ArrayXd profile_weights(Window window, Index points) {
   if (window == Window::none) return Eigen::ArrayXd::Ones(points);
   const auto index = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
@@ -38,7 +38,7 @@ Eigen::ArrayXd profile_weights(Window window, Index points) {
   return weights / std::sqrt(weights.square().mean());
 }
 
-/// Weights of all points, normalised to ⟨w²⟩ = 1.
+/// Weights w of a window at all points of a surface, normalised to a mean of w² of 1.
 class Weights {
  public:
   Weights(Window window, const Surface& surface)
@@ -53,7 +53,7 @@ class Weights {
     scale_ = 1 / std::sqrt(sum / static_cast<double>(grid_.points()));
   }
 
-  /// The window of a row of this process.
+  /// The weights of a row of this process.
   Eigen::ArrayXd row(Index row) const {
     const Index ix = rows_.begin() + row;
     if (!radial_) return along_x_(ix) * along_y_;
@@ -67,7 +67,8 @@ class Weights {
     return weights;
   }
 
-  /// Σ term(weights of a row, row of this process) over all rows of all processes.
+  /// Sum of term(weights of a row, index of the row in this process) over the rows of all
+  /// processes.
   template <class Term>
   double sum_rows(const Term& term) const {
     return parallel::sum_blocks(rows_, [&](Index begin, Index end) {
@@ -116,11 +117,12 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   const RowPartition columns = spectrum.columns();
   collectively(surface.communicator, [&] {
     surface.require_complete_rows("a power spectrum");
-    // Half as many complex modes as points, the density of half of them, and what processes send
-    // and receive.
-    require_memory(grid,
-                   (surface.communicator.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
-                   "a power spectrum");
+    // Bytes per point: 8 for the complex modes of the half-spectrum, 4 for the density, and 8 that
+    // processes send and receive.
+    require_memory(
+        grid,
+        (surface.communicator.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
+        "a power spectrum");
     spectrum.psd = uninitialised_field(grid.nx, columns.count());
   });
   if (!surface.periodic) spectrum.asymmetric_wavelength = detail::asymmetric_wavelength(surface);
@@ -153,7 +155,8 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
               scale * std::norm(column[static_cast<std::size_t>(i)]);
       },
       surface.partition(), columns);
-  // What rounding left of the mean.
+  // The mean height is removed before the transform; set the mode of the mean, which holds its
+  // rounding error, to 0.
   if (columns.begin() == 0 && columns.count() > 0) spectrum.psd(0, 0) = 0;
   return spectrum;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points that stand alone, by robust deviations from their neighbours.
+// Finds isolated points whose heights deviate from those of their neighbours, by medians.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,8 +18,9 @@ namespace salebra {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr double deviation_per_median = 1.4826;  // of a Gaussian
-constexpr std::size_t max_spike = 4;         // points
+// Standard deviation of a Gaussian variable, relative to the median of its absolute deviation.
+constexpr double deviation_per_median = 1.4826;
+constexpr std::size_t max_spike = 4;  // maximum number of points in a spike
 
 /// Returns the median of some values, whose order it may change.
 double middle_of(std::span<double> values) {
@@ -28,11 +29,12 @@ double middle_of(std::span<double> values) {
   return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-/// Points beside each other in a row, as many as a pass takes.
+/// Adjacent points of a row that one pass handles together.
 using Points = Eigen::Array<double, 4, 1>;
 
-/// Medians of the eight neighbours of points, whose heights begin in the middle one of three rows.
-/// NaN where a neighbour is undefined.
+/// Medians of the heights of the eight neighbours of each of some points in a row. `rows` points to
+/// the heights of these points in the second of three rows, and to the same columns of the rows
+/// before and after it. NaN if a neighbour is undefined.
 Points medians_of_neighbours(const std::array<const double*, 3>& rows) {
   const auto at = [](const double* index) { return Points(Eigen::Map<const Points>(index)); };
   const auto [before, here, behind] = rows;
@@ -40,7 +42,7 @@ Points medians_of_neighbours(const std::array<const double*, 3>& rows) {
                                at(here + 1),   at(behind - 1), at(behind),     at(behind + 1)};
   Points undefined_if_one_is = Points::Zero();
   for (const Points& heights : sorted) undefined_if_one_is += 0 * heights;
-  // Batcher's network: no branch that a processor could guess wrong.
+  // Batcher's sorting network, which has no branches that a processor could mispredict.
   constexpr std::array<std::uint8_t, 38> pairs{0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4,
                                                6, 5, 7, 1, 2, 5, 6, 0, 4, 1, 5, 2, 6,
                                                3, 7, 2, 4, 3, 5, 1, 2, 3, 4, 5, 6};
@@ -59,12 +61,12 @@ struct GridPoint {
   bool operator==(const GridPoint&) const = default;
 };
 
-/// A surface with the neighbours of its points.
+/// A surface with access to the neighbours of its points.
 class Neighbourhoods {
  public:
   explicit Neighbourhoods(const Surface& surface) : surface_(surface) {}
 
-  /// Calls visit(point) for each of up to eight defined neighbours.
+  /// Calls visit(point) for each of the up to eight defined neighbours of the point `of`.
   template <class Visit>
   void around(GridPoint of, const Visit& visit) const {
     const Grid2D& grid = surface_.grid;
@@ -86,7 +88,8 @@ class Neighbourhoods {
   struct Surroundings {
     double median, deviation;
   };
-  /// NaN where fewer than three neighbours are defined.
+  /// Median and, if wanted, robust deviation of the neighbours of a point; NaN if fewer than three
+  /// neighbours are defined.
   Surroundings surroundings(GridPoint at, bool with_deviation) const {
     std::array<double, 8> buffer;
     std::size_t count = 0;
@@ -99,8 +102,9 @@ class Neighbourhoods {
     return {middle, deviation_per_median * middle_of(values)};
   }
 
-  /// The points beside each other, `from` among them, that lie beyond half of its height; one more
-  /// than a spike has where there are many.
+  /// The points connected to `from` that are higher (or lower, like `from` itself) than half way
+  /// between `middle` and the height of `from`. The search stops when it has one point more than a
+  /// spike can have.
   std::vector<GridPoint> beside(GridPoint from, double middle) const {
     const double half = (height(from) + middle) / 2;
     const bool above = height(from) > middle;
@@ -118,7 +122,7 @@ class Neighbourhoods {
   const Surface& surface_;
 };
 
-/// h − median(h_n); NaN where either is undefined.
+/// Height of each point minus the median of its neighbours' heights; NaN if either is undefined.
 Field deviations_from_neighbours(const Surface& surface, const Neighbourhoods& neighbours) {
   constexpr Index pass = Points::SizeAtCompileTime;
   const Grid2D& grid = surface.grid;
@@ -136,7 +140,8 @@ Field deviations_from_neighbours(const Surface& surface, const Neighbourhoods& n
               Eigen::Map<Points>(row + iy) =
                   Eigen::Map<const Points>(here + iy) -
                   medians_of_neighbours({before + iy, here + iy, behind + iy});
-          // Along the edges, and beside undefined points.
+          // Points at the edges of the surface and next to undefined points have fewer neighbours
+          // and need the general median.
           for (Index iy = 0; iy < grid.ny; ++iy)
             if (std::isnan(row[iy]) && !std::isnan(here[iy]))
               row[iy] = here[iy] - neighbours.surroundings({ix, iy}, false).median;
@@ -146,9 +151,9 @@ Field deviations_from_neighbours(const Surface& surface, const Neighbourhoods& n
   return deviations;
 }
 
-/// The size that a share of the deviations does not exceed; 0 where all are undefined. Sizes are
-/// counted by their first bits, which are in the order of the numbers; those of one count are then
-/// looked at.
+/// The absolute value that a fraction `share` of the deviations does not exceed; 0 if all are
+/// undefined. Absolute values are first counted by their leading bits, which sort like the numbers;
+/// then only the values with the leading bits of the result are examined.
 double quantile_of_sizes(const Field& deviations, double share) {
   constexpr int dropped = 47;  // bits; 32 intervals in each octave
   const auto interval = [](double size) { return std::bit_cast<std::uint64_t>(size) >> dropped; };
@@ -173,8 +178,9 @@ double quantile_of_sizes(const Field& deviations, double share) {
   return *at;
 }
 
-/// s_0 of find_spikes(). Where most points equal their neighbours, as in a surface of few digits,
-/// the deviation that a hundredth exceeds takes its place.
+/// The typical deviation s_0 of find_spikes(), from the median of the absolute deviations. If this
+/// median is 0 because most points equal their neighbours, as in surfaces stored with few digits,
+/// it is the deviation that a hundredth of the points exceeds.
 double scale_of(const Field& deviations) {
   const double middle = quantile_of_sizes(deviations, 0.5);
   return middle > 0 ? deviation_per_median * middle : quantile_of_sizes(deviations, 0.99);
@@ -186,7 +192,7 @@ std::vector<Spike> find_spikes(const Surface& surface, double threshold) {
   surface.require_whole("a search for spikes");
   detail::require_shape(surface);
   require(threshold >= 3, "despike", threshold,
-          "must be >= 3 robust standard deviations; 6 leaves every Gaussian surface as it is");
+          "must be >= 3 robust standard deviations; 6 does not change a Gaussian surface");
   const Grid2D& grid = surface.grid;
   const Neighbourhoods neighbours(surface);
   const Field deviations = deviations_from_neighbours(surface, neighbours);

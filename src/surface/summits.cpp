@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Summits of a surface on the 3 x 3 neighbourhood, their curvatures and statistics.
+// Summits of a surface in 3 × 3 neighbourhoods, their curvatures and statistics.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace salebra {
 namespace {
 
-/// Heights of 3 × 3 points, [1 + step in x][1 + step in y].
+/// Heights of 3 × 3 points; element [1 + i][1 + j] is i steps in x and j steps in y from the
+/// centre.
 using Neighbourhood = std::array<std::array<double, 3>, 3>;
 
 bool is_defined(const Neighbourhood& h) {
@@ -34,8 +35,8 @@ bool is_maximum(const Neighbourhood& h) {
   return true;
 }
 
-/// Least squares of c + s_x x + s_y y − ½(k_xx x² + 2 k_xy xy + k_yy y²) on the points −1, 0, 1
-/// times the steps.
+/// Least-squares fit of the paraboloid c + s_x x + s_y y − ½(k_xx x² + 2 k_xy xy + k_yy y²) to the
+/// heights of 3 × 3 points, where x and y are −1, 0 and 1 times the steps of the grid.
 struct Paraboloid {
   double height, slope_x, slope_y, k_xx, k_xy, k_yy;
 
@@ -134,10 +135,11 @@ SummitList find_summits(const Surface& surface) {
 SummitStatistics summit_statistics(const SummitList& list) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const bool of_surface = list.rows > 0;
-  const RowPartition rows = of_surface ? RowPartition(list.communicator, list.rows) : RowPartition(1);
+  const RowPartition rows =
+      of_surface ? RowPartition(list.communicator, list.rows) : RowPartition(1);
   const std::vector<Index> in_block =
       of_surface ? list.in_block : std::vector<Index>{static_cast<Index>(list.summits.size())};
-  // Sum of term(summit) over all processes.
+  // Sum of term(summit) over the summits of all processes.
   const auto sum = [&](const auto& term) {
     std::vector<double> blocks;
     auto summit = list.summits.begin();

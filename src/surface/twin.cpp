@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface twin: form of the spectrum, what is seen of it, bad scans, checks, and the result.
+// Surface twin: form of the spectrum, whether roll-off and cut-off are seen, bad scans, checks, and
+// the result.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,9 +10,9 @@
 #include <salebra/surface/twin.hpp>
 #include <set>
 
+#include "base/numerics/dense_systems.hpp"
 #include "base/random.hpp"
 #include "base/special_values.hpp"
-#include "surface/dense_systems.hpp"
 #include "surface/twin_fit.hpp"
 
 namespace salebra {
@@ -20,13 +21,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double seen_above = 6;     ///< 2 ln of a likelihood ratio
+constexpr double seen_above = 6;     ///< minimum of 2 ln of a likelihood ratio
 constexpr double one_sided = 1.353;  ///< half the 90 % quantile of χ² with one degree
-/// Misfit of a scan, and over the median of its group. Of 495 good scans of 45 Gaussian surfaces
-/// (bench/statistics/twin_coverage.cpp) the greatest was 2.2, and the tail puts 3.5 at one in 6000;
-/// at a skewness of −1 at one in 250. SurfaceTwin::refused_above follows in the same way: misfits of
-/// right laws were 1.00 by a factor of e^±0.25, so that one in 1400 is above 2.2, and one in six at
-/// a skewness of −1, where a table must be better by a fifth to be taken.
+/// A scan is bad if its misfit exceeds this value, also relative to the median of its group. The
+/// maximum over 495 good scans of 45 Gaussian surfaces (bench/statistics/twin_coverage.cpp) was
+/// 2.2; the tail of the distribution reaches 3.5 in one of 6000 scans, or in one of 250 at a
+/// skewness of −1. SurfaceTwin::refused_above follows in the same way: misfits of right laws were
+/// 1.00 within a factor of e^±0.25, hence one in 1400 is above 2.2, and one in six at a skewness of
+/// −1. In that case a table must be better by a fifth to replace the law.
 constexpr double bad_scan_above = 3.5;
 constexpr double knots_per_decade = 5;
 using detail::unknown;
@@ -62,7 +64,7 @@ Candidate candidate_of(const std::vector<TwinData>& data, SpectrumForm form) {
   return {std::move(model), std::move(fit)};
 }
 
-/// A table, from the self-affine law that fits best.
+/// Fits a tabulated spectrum, starting from the best self-affine law.
 Candidate table_near(const Candidate& best) {
   const std::vector<TwinData>& data = best.model.data();
   const TwinLaw& near = best.model.law();
@@ -83,13 +85,13 @@ Candidate table_near(const Candidate& best) {
       Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
   start.tail(model.size() - law.cutoff()) =
       best.fit.parameters.tail(best.model.size() - near.cutoff());
-  // Under a wide tolerance first, as every fit.
+  // As in fitted(), the first fit has a wide tolerance.
   model.set_tolerance(0.3, 0.3, 1);
   TwinFit fit = refitted(model, minimised(model, start).parameters);
   return {std::move(model), std::move(fit)};
 }
 
-/// The form of the greater likelihood, then the other one.
+/// The fit of the spectrum's form with the greater likelihood, and the fit of the other form.
 struct Forms {
   Candidate best;
   std::optional<Candidate> other;
@@ -100,7 +102,7 @@ Forms forms_of(const std::vector<TwinData>& data, const std::optional<SpectrumFo
   if (form && *form != SpectrumForm::table) return {candidate_of(data, *form), {}, 0};
   Candidate corner = candidate_of(data, SpectrumForm::corner),
             smooth = candidate_of(data, SpectrumForm::smooth);
-  // The tolerance about the cut-off must be one for both to be compared.
+  // The corner and the smooth form can only be compared with the same tolerance near the cut-off.
   Candidate& guide = smooth.fit.cost < corner.fit.cost ? smooth : corner;
   Candidate& follower = &guide == &smooth ? corner : smooth;
   const double cutoff = 2 * pi * std::exp(-guide.fit.parameters[guide.model.law().cutoff()]);
@@ -144,11 +146,11 @@ std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const
   return judged;
 }
 
-/// What the likelihood says of the longest and the shortest waves.
+/// Whether the likelihood shows the roll-off (longest waves) and the cut-off (shortest waves).
 struct Ends {
   double rolloff_ratio = 0, cutoff_ratio = 0;
   TwinFit without_rolloff, without_cutoff;
-  std::optional<TwinProfile> rolloffs, cutoffs;  ///< where they are not seen
+  std::optional<TwinProfile> rolloffs, cutoffs;  ///< only if not seen
 
   bool sees_rolloff() const { return rolloff_ratio > seen_above; }
   bool sees_cutoff() const { return cutoff_ratio > seen_above; }
@@ -162,7 +164,7 @@ Ends ends_of(const Candidate& one) {
     Eigen::VectorXd start = one.fit.parameters;
     start[parameter] = value;
     TwinFit best = minimised(model, start, {parameter});
-    // Without a plateau a lower exponent may serve better.
+    // Without a plateau a lower Hurst exponent may fit better.
     if (!law.table()) {
       start[TwinLaw::hurst] -= 0.1;
       const TwinFit second = minimised(model, start, {parameter});
@@ -199,7 +201,8 @@ TwinDraw spectrum_of(const TwinModel& model, const Eigen::VectorXd& parameters) 
                  2 * pi / model.max_scan());
 }
 
-/// Value and standard deviation of a function of the spectrum, by the curvature at a fit.
+/// Value of a function of the spectrum at a fit, and its standard deviation from the curvature of
+/// the likelihood there.
 struct Spread {
   double value = 0, deviation = 0;
 };
@@ -220,8 +223,9 @@ Spread spread_of(const TwinModel& model, const Eigen::VectorXd& parameters,
 
 double log_height(const TwinDraw& draw) { return std::log(draw.rms_height); }
 
-/// The least rms height that the profile of the roll-off allows: along it, and below each of its
-/// fits by what remains of the drop.
+/// Minimum rms height among the fits with a held roll-off (`profile`) whose likelihood is not too
+/// low. The height of each fit may be lower still by as much as the rest of the allowed drop in
+/// likelihood permits.
 double min_height(const Candidate& one, const TwinProfile& profile) {
   double least = one.fit.cost, lowest = std::numeric_limits<double>::infinity();
   for (const TwinFit& fit : profile.fits) least = std::min(least, fit.cost);
@@ -236,7 +240,8 @@ double min_height(const Candidate& one, const TwinProfile& profile) {
   return std::exp(lowest);
 }
 
-/// Walkers about the fit, and along what is not seen.
+/// Starting parameters of the walkers that sample the posterior: near the fit, and along the fits
+/// with a held roll-off or cut-off if roll-off or cut-off are not seen.
 Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t seed) {
   const TwinModel& model = one.model;
   const Index size = model.size(), walkers = std::max<Index>(128, 8 * size);
@@ -277,7 +282,8 @@ Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t s
     Eigen::VectorXd moved = about_fit.lazyProduct(z);
     if (!long_ends.empty()) moved[TwinLaw::rolloff] = 0.2 * (shift.first - 0.5);
     if (!short_ends.empty()) {
-      at[model.law().cutoff()] = chosen(short_ends, position.second)->parameters[model.law().cutoff()];
+      at[model.law().cutoff()] =
+          chosen(short_ends, position.second)->parameters[model.law().cutoff()];
       moved[model.law().cutoff()] = 0.2 * (shift.second - 0.5);
     }
     at += moved;
@@ -360,14 +366,16 @@ struct Curved {
   Spread hurst, rolloff, cutoff, height, slope;
 };
 
-/// Whether the likelihood with a parameter held is less by what counts as seen.
+/// Whether holding a parameter at `held_at` lowers 2 ln of the likelihood by more than
+/// `seen_above`.
 bool sees(const Candidate& one, Index parameter, double held_at) {
   Eigen::VectorXd held = one.fit.parameters;
   held[parameter] = held_at;
   return 2 * (minimised(one.model, held, {parameter}).cost - one.fit.cost) > seen_above;
 }
 
-/// Parameters of a fit of a self-affine law by its curvature: hurst, ln of the others.
+/// Parameters of a self-affine fit with their deviations from the curvature of the likelihood: the
+/// Hurst exponent, and the logarithms of all others.
 Curved curved(const Candidate& one) {
   const TwinModel& model = one.model;
   const Index cutoff = model.law().cutoff();
@@ -415,7 +423,8 @@ std::vector<TwinWithout> fits_without(const Candidate& all) {
       to.value = back(now.value);
       to.low = back(now.value - 1.96 * now.deviation);
       to.high = back(now.value + 1.96 * now.deviation);
-      // The whole holds the part: its variance is in that of the part.
+      // The scans without this instrument are part of all scans, so the variance of the difference
+      // between the two fits is the difference of their variances.
       const double variance =
           std::max(now.deviation * now.deviation - before.deviation * before.deviation,
                    now.deviation * now.deviation / 4);
@@ -436,7 +445,7 @@ std::vector<TwinWithout> fits_without(const Candidate& all) {
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
-/// From scans to a twin, stage by stage.
+/// Builds a surface twin from scans, stage by stage.
 class TwinRun {
  public:
   TwinRun(const std::vector<ScanSpectrum>& scans, const TwinOptions& options)
@@ -462,7 +471,7 @@ class TwinRun {
     std::size_t bins = 0;
     for (const TwinData& group : data) bins += group.bins.size();
     require(bins >= 8, "scans", bins,
-            "bins of wavelengths are usable, which are too few; give larger scans or finer tips");
+            "bins of wavelengths are usable, which is too few; give larger scans or finer tips");
     return data;
   }
 
@@ -472,7 +481,7 @@ class TwinRun {
     twin_.scans = judged_scans(scans_, forms_.best, left_out_);
     if (!options_.drop_bad_scans || std::ranges::find(left_out_, true) == left_out_.end()) return;
     forms_ = forms_of(data_of_all(), options_.form);
-    // Those that are left are judged by the better fit.
+    // The remaining scans are judged anew by the fit without the bad scans.
     std::vector<bool> final = left_out_;
     std::vector<TwinScan> judged = judged_scans(scans_, forms_.best, final);
     for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
@@ -490,27 +499,27 @@ class TwinRun {
     twin_.without = fits_without(forms_.best);
     for (const TwinWithout& without : twin_.without)
       if (!without.agrees)
-        note(
-            "without " + without.instrument +
-            " the parameters move by more than chance explains: one of the instruments is not what "
-            "it is said to be");
+        note("without " + without.instrument +
+             " the parameters change by more than chance: the description of one instrument is "
+             "wrong");
   }
 
   void replace_by_table() {
     const double misfit = forms_.best.misfit();
     const bool asked = options_.form == SpectrumForm::table;
     if (!asked && (options_.form || !(misfit > SurfaceTwin::refused_above))) return;
-    // A table ends with the scans: whether a plateau is in them the self-affine law says.
+    // A tabulated spectrum has no roll-off of its own, so the self-affine law decides whether the
+    // scans contain a plateau.
     plateau_ =
         sees(forms_.best, TwinLaw::rolloff, forms_.best.model.highest()[TwinLaw::rolloff] - 1e-3);
     Candidate table = table_near(forms_.best);
     const bool better = asked || table.misfit() < 0.8 * misfit;
     if (!asked)
-      note(std::string("the scans fit no self-affine spectrum, with a corner or a smooth "
-                       "roll-off: ") +
+      note(std::string(
+               "no self-affine spectrum, with a corner or a smooth roll-off, fits the scans: ") +
            (better ? "a table is fitted"
-                   : "nor do they fit any other, so that they contradict each other, and intervals "
-                     "are too narrow"));
+                   : "no other spectrum fits them either, so they contradict each other, and "
+                     "intervals are too narrow"));
     if (better) forms_ = {std::move(table), {}, 0};
   }
 
@@ -533,11 +542,12 @@ class TwinRun {
                               model.gain(best.fit.parameters, group), of_law.ratio()});
       if (data.tip_limit > 0)
         note(data.instrument + ": waves below " + length_text(2 * pi / data.tip_limit) +
-             " are left out, which the tip does not follow");
+             " are left out, because the tip does not follow them");
     }
   }
 
-  /// Where the forms are nearly as likely, draws are of both.
+  /// Draws parameters from the posterior. If the corner and the smooth form are nearly equally
+  /// likely, the draws come from both.
   void draw(const Ends& ends) {
     const double odds = std::exp(-forms_.ratio / 2);
     const bool undecided = forms_.other && ends.sees_rolloff() && forms_.ratio < seen_above;
@@ -546,7 +556,9 @@ class TwinRun {
                                      : 0;
     twin_.draws = draws_of(forms_.best, ends, options_.draws - of_other, options_.seed);
     if (of_other == 0) return;
-    note("a corner and a smooth roll-off are nearly as likely: draws and intervals are of both");
+    note(
+        "a corner and a smooth roll-off are nearly equally likely: draws and intervals include "
+        "both");
     std::vector<TwinDraw> others = draws_of(*forms_.other, ends_of(*forms_.other),
                                             std::max<Index>(of_other, 1), options_.seed + 1);
     std::ranges::move(others, std::back_inserter(twin_.draws));
@@ -579,18 +591,19 @@ class TwinRun {
     const TwinModel& model = forms_.best.model;
     twin_.short_cutoff.high = std::exp(ends.cutoffs->limit(forms_.best.fit.cost, one_sided)
                                            .value_or(ends.cutoffs->values.front()));
-    note("the short cut-off is not seen: it lies below " + length_text(twin_.short_cutoff.high) +
+    note("the scans do not resolve the short cut-off: it lies below " +
+         length_text(twin_.short_cutoff.high) +
          "; the upper limit of the rms slope follows from its prior, from " +
          length_text(std::exp(model.lowest()[model.law().cutoff()])) + " on");
   }
 
   void set_heights_of_table() {
-    note("rms height and slope are those of waves below " +
+    note("rms height and slope include only waves below " +
          length_text(forms_.best.model.max_scan()));
     if (plateau_) return;
     twin_.rms_height = {};
     twin_.rms_height.low = quantile(sorted(&TwinDraw::rms_height), 0.05);
-    note("no roll-off is seen in them: of the rms height only a lower limit is known");
+    note("they show no roll-off, so only a lower limit of the rms height is known");
   }
 
   void set_rolloff(const Ends& ends) {
@@ -603,8 +616,8 @@ class TwinRun {
                                      .value_or(ends.rolloffs->values.front()));
     twin_.rms_height = {};
     twin_.rms_height.low = min_height(forms_.best, *ends.rolloffs);
-    note("the roll-off is not seen: it lies beyond " + length_text(twin_.rolloff.low) +
-         "; of the rms height only a lower limit is known");
+    note("the scans do not show the roll-off: it lies beyond " + length_text(twin_.rolloff.low) +
+         "; only a lower limit of the rms height is known");
   }
 
   const std::vector<ScanSpectrum>& scans_;
@@ -613,11 +626,11 @@ class TwinRun {
   Responses responses_;
   Forms forms_;
   SurfaceTwin twin_;
-  bool plateau_ = true;  ///< whether the scans hold one, where a table is fitted
+  bool plateau_ = true;  ///< whether the scans contain a plateau; used if a table is fitted
 };
 
 SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
-  require_that(!scans.empty(), "scans", "are none; give one or more");
+  require_that(!scans.empty(), "scans", "none given; give at least one");
   require(options.draws >= 100, "draws", options.draws, "must be >= 100");
   return TwinRun(scans, options).run();
 }
@@ -626,7 +639,7 @@ SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& o
 }  // namespace twin_detail
 
 const TwinDraw& SurfaceTwin::draw(std::uint64_t seed) const {
-  require_that(!draws.empty(), "draws", "are none");
+  require_that(!draws.empty(), "draws", "are missing");
   const double part = uniform_pair(seed, 0, 0, 113).first;
   return draws[std::min(draws.size() - 1,
                         static_cast<std::size_t>(part * static_cast<double>(draws.size())))];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Groups of scans with the bins that a surface twin uses of them.
+// Groups of scans, and the bins of each group that a surface twin uses.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,12 +11,15 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double tip_limit = 0.08;  ///< R·κ_rms up to which a tip follows to some per cent
-constexpr double tip_error = 0.06;  ///< relative error of powers at that limit
-constexpr double known_noise = 0.5, found_noise = 1.5;  ///< standard deviations of ν
+/// Product of tip radius and rms curvature up to which a tip follows a surface to a few per cent.
+constexpr double tip_limit = 0.08;
+constexpr double tip_error = 0.06;  ///< relative error of the powers at tip_limit
+/// Standard deviations of ln of the noise, if it is stated and if it is found from the data.
+constexpr double known_noise = 0.5, found_noise = 1.5;
 
-/// Independent modes for each mode, correlation of neighbouring bins in them, as simulated: the
-/// tapers' 0.55 and Hann's 0.25 of a plane; of a line the square roots.
+/// Number of independent modes per mode, from simulations: neighbouring modes of a bin are
+/// correlated. It is 0.55 with the sine tapers and 0.25 with the Hann window for a map, and the
+/// square root of these numbers for a profile.
 double independent(bool tapered, bool profile) {
   const double share = tapered ? 0.55 : 0.25;
   return profile ? std::sqrt(share) : share;
@@ -40,8 +43,8 @@ bool alike(const ScanSpectrum& a, const ScanSpectrum& b) {
          s.name == t.name;
 }
 
-/// Adds up how the scans' heights scatter about their mean, by the logarithms of their powers above
-/// noise.
+/// Sums for the scatter of the heights of the scans of a group about their mean, from the
+/// logarithms of their powers above the noise.
 struct ScanScatter {
   double squares = 0, freedom = 0;
 
@@ -65,12 +68,14 @@ struct ScanScatter {
       sum += logarithm;
       square += logarithm * logarithm;
     }
-    // Less what chance does to the powers themselves: modes are those of all scans.
+    // Subtract the random scatter of the powers, which does not come from the heights of the scans;
+    // `modes` counts the independent modes of all scans.
     squares += square - sum * sum / count - (count - 1) * count / (4 * modes);
     freedom += count - 1;
   }
 
-  /// Standard error of a scan's gain that they show, on the large side where they are few.
+  /// Standard error of the gain (the factor of the heights) of a scan from this scatter,
+  /// overestimated if there are few scans.
   double error() const {
     return freedom < 2
                ? 0
@@ -78,9 +83,10 @@ struct ScanScatter {
   }
 };
 
-/// What a Hann window leaves in each bin of waves more than six modes longer, which the response of
-/// the bins above κ = 36 has not: of a wave d modes away the part (2/3)(1/2)(πd³)⁻² along an axis, of
-/// all beyond d modes 0.007 d⁻⁵. The mean over directions is less, a fifteenth beyond a sharp end.
+/// Power that a Hann window leaks into each bin from waves more than six modes longer, which the
+/// response of the bins above κ = 36 does not include. Along an axis, a wave d modes away leaks the
+/// fraction (2/3)(1/2)(πd³)⁻² of its power, and all waves beyond d modes leak 0.007 d⁻⁵. The mean
+/// over directions is smaller than this, by a factor of fifteen beyond a sharp cut-off.
 std::vector<double> leakage(const std::vector<double>& limits, const std::vector<double>& psd,
                             const std::vector<Index>& modes) {
   constexpr double share = 0.007, modelled = 6;
@@ -96,12 +102,12 @@ std::vector<double> leakage(const std::vector<double>& limits, const std::vector
   return leaked;
 }
 
-/// Whether a bin has modes enough to be used.
+/// Whether a bin of a scan has enough modes to be used in the fit.
 bool enough(const ScanSpectrum& scan, std::size_t bin) {
   return scan.modes[bin] >= (scan.profile() ? 2 : 4);
 }
 
-/// What the group has of its instrument.
+/// The data of a group that follow from its instrument.
 TwinData of_instrument(const ScanInstrument& instrument) {
   TwinData data;
   data.instrument = instrument_name(instrument);
@@ -114,7 +120,7 @@ TwinData of_instrument(const ScanInstrument& instrument) {
   return data;
 }
 
-/// Mean spectrum of scans by their weights.
+/// Weighted mean of the spectra of several scans.
 struct MeanSpectrum {
   std::vector<double> psd;
   double weight = 0, squares = 0;
@@ -130,7 +136,7 @@ struct MeanSpectrum {
   }
 };
 
-/// Finds the noise, and raises the powers to what leaks and rounding leave of them.
+/// Sets the noise of a group, and raises the powers to at least their leakage and rounding error.
 void set_noise(const ScanSpectrum& first, const std::vector<double>& leaked,
                std::vector<double>& psd, TwinData& data) {
   const double stated = first.instrument.noise;
@@ -149,7 +155,8 @@ void set_noise(const ScanSpectrum& first, const std::vector<double>& leaked,
         (first.profile() ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
     data.noise_freedom = known_noise;
   }
-  // Without any noise a bin beyond the cut-off would be impossible: rounding is some.
+  // Without any noise, power in a bin beyond the cut-off would be impossible; rounding provides
+  // some.
   constexpr double rounded = 1e-15;
   data.noise = std::max(data.noise, rounded * greatest);
   for (std::size_t bin = 0; bin < psd.size(); ++bin)
@@ -187,7 +194,7 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
   const std::vector<double> leaked = leakage(limits, psd, first.modes);
   set_noise(first, leaked, psd, data);
 
-  double curvature = 0;  // κ_rms²
+  double curvature = 0;  // κ_rms², mean square curvature
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const double a = modes.wavenumber(limits[bin]), b = modes.wavenumber(limits[bin + 1]);
     const double q = first.wavenumber[bin], excess = std::max(psd[bin] - data.noise, 0.0);
@@ -209,7 +216,8 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
     data.modes.push_back(std::max(0.1, lowest_bins * independent(by_tapers, line) *
                                            static_cast<double>(first.modes[bin]) / 2 *
                                            mean.weight));
-    // Correlation is in m_c: the scatter of a narrow bin alone is less.
+    // The number of independent modes accounts for the correlation between bins; within a single
+    // narrow bin the scatter is smaller by this factor.
     data.scatter.push_back(by_tapers ? 0.35 : 0.75);
   }
 
@@ -243,7 +251,8 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
     TwinData one = group_of(scans, std::move(group), responses);
     if (!one.bins.empty()) data.push_back(std::move(one));
   }
-  // More than calibration where places of a surface differ, as where heights are not Gaussian.
+  // Scans of different parts of a surface may differ by more than their calibration error, e.g. if
+  // the heights are not Gaussian.
   ScanScatter scatter;
   for (const TwinData& group : data) scatter.add(scans, group);
   for (TwinData& group : data)

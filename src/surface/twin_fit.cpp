@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Most likely parameters of a surface twin, profiles of its likelihood, curvature.
+// Most likely parameters of a surface twin, profiles of its likelihood, and its curvature.
 #include "surface/twin_fit.hpp"
 
 #include <Eigen/Cholesky>
@@ -22,7 +22,8 @@ double cutoff_wavenumber(const TwinModel& model, const Eigen::VectorXd& paramete
   return 2 * pi * std::exp(-parameters[model.law().cutoff()]);
 }
 
-/// ln C that the scans show about a wave number, gain 1.
+/// ln of the scans' power spectral density C near a wave number, for heights without a calibration
+/// error (gain 1).
 double seen_level(const TwinModel& model, double wavenumber) {
   double level = 0, nearest = std::numeric_limits<double>::infinity();
   for (const TwinData& data : model.data())
@@ -30,7 +31,8 @@ double seen_level(const TwinModel& model, double wavenumber) {
       const double distance = std::abs(std::log(data.wavenumber[bin] / wavenumber));
       if (distance >= nearest) continue;
       nearest = distance;
-      // A profile's C₁ is about 2q C.
+      // The weights convert C to the power of the bin: that of a profile is about 2q C, with the
+      // wave number q.
       double sum = 0;
       const std::size_t bins = data.bins.size();
       for (std::size_t cell = 0; cell < data.cell_wavenumber.size(); ++cell)
@@ -76,7 +78,7 @@ TwinFit minimised(const TwinModel& model, Eigen::VectorXd start, const std::vect
   const Index size = model.size();
   for (int iteration = 0; iteration < 80; ++iteration) {
     const Eigen::VectorXd gradient = slopes.transpose() * values;
-    // A parameter that would leave its bounds waits there.
+    // A parameter at a bound that the step would move beyond the bound is held.
     std::vector<Index> free;
     for (Index p = 0; p < size; ++p) {
       const bool held = std::ranges::find(fixed, p) != fixed.end() ||
@@ -119,7 +121,7 @@ TwinFit minimised(const TwinModel& model, Eigen::VectorXd start, const std::vect
 
 TwinFit refitted(TwinModel& model, const Eigen::VectorXd& start) {
   TwinFit fit{start, 0};
-  // The zone of the cut-off moves with it.
+  // The range with the wider tolerance moves with the cut-off, hence two passes.
   for (int pass = 0; pass < 2; ++pass) {
     model.set_tolerance(law_tolerance, zone_tolerance, cutoff_wavenumber(model, fit.parameters));
     fit = minimised(model, fit.parameters);
@@ -146,8 +148,8 @@ TwinFit fitted(TwinModel& model) {
     if (fit.cost < best.cost) best = fit;
   }
   require_that(std::isfinite(best.cost), "scans",
-               "have spectral densities of which no law comes near, since their squares are beyond "
-               "any number; check the units of heights and sizes");
+               "have spectral densities so large that their squares overflow; check the units of "
+               "heights and lengths");
   return refitted(model, best.parameters);
 }
 
@@ -184,7 +186,7 @@ Eigen::MatrixXd laplace_covariance(const TwinModel& model, const Eigen::VectorXd
   Eigen::MatrixXd slopes;
   model.residuals(parameters, work, values, &slopes);
   Eigen::MatrixXd curvature = slopes.transpose().lazyProduct(slopes);
-  // Directions that nothing decides on get a width of their range.
+  // A parameter that the data do not determine gets the width of its range, by a weak prior.
   for (Index p = 0; p < model.size(); ++p)
     curvature(p, p) += p < model.law().size() ? 1.0 : 1.0 / 16;
   for (const Index parameter : fixed) curvature(parameter, parameter) += 1e12;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forms of the spectrum of a surface twin: densities, slopes in the parameters, moments, tables.
+// Forms of the spectrum of a surface twin: densities, their derivatives and moments, and tables of
+// the spectrum.
 #include "surface/twin_law.hpp"
 
 #include <algorithm>
@@ -17,10 +18,11 @@ namespace {
 
 using std::numbers::pi;
 
-/// (e^{pt} − 1)/p, t for p = 0: ∫_0^t e^{ps} ds.
+/// ∫_0^t e^{ps} ds = (e^{pt} − 1)/p, or t for p = 0.
 double grown(double p, double t) { return std::abs(p * t) < 1e-12 ? t : std::expm1(p * t) / p; }
 
-/// Second derivatives at the knots of the natural spline through each knot's unit vector.
+/// Second derivatives, at the knots, of the natural splines that are 1 at one knot and 0 at all
+/// others; one column for each spline.
 Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
   const auto n = static_cast<Index>(knots.size());
   Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n), right = Eigen::MatrixXd::Zero(n, n);
@@ -35,7 +37,7 @@ Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
     right(k, k) = -1 / step(k - 1) - 1 / step(k);
     right(k, k + 1) = 1 / step(k);
   }
-  // Elimination without pivots: the matrix is tridiagonal and dominant on its diagonal.
+  // Elimination without pivoting: the matrix is tridiagonal, and its diagonal dominates.
   for (Index k = 1; k < n; ++k) {
     const double factor = left(k, k - 1) / left(k - 1, k - 1);
     left(k, k) -= factor * left(k - 1, k);
@@ -48,7 +50,8 @@ Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
   return right;
 }
 
-/// Row of the spline's basis at x, straight beyond the first and the last knot.
+/// Values at x of the splines that are 1 at one knot and 0 at all others; they continue as straight
+/// lines beyond the first and the last knot.
 Eigen::RowVectorXd spline_row(const std::vector<double>& knots, const Eigen::MatrixXd& curvatures,
                               double x) {
   const auto n = static_cast<Index>(knots.size());
@@ -137,7 +140,7 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
   const double end =
       std::log(2 * pi / law.reference) - parameters[static_cast<std::size_t>(law.cutoff())];
   draw.short_cutoff = std::exp(parameters[static_cast<std::size_t>(law.cutoff())]);
-  double height = 0, slope = 0;  // ∫C d²q and ∫q²C d²q in units of q0
+  double height = 0, slope = 0;  // ∫C d²q, ∫q²C d²q with q in units of law.reference
   if (law.table()) {
     draw.hurst = draw.rolloff = detail::unknown;
     for (const double knot : law.knots) draw.knots.push_back(law.reference * std::exp(knot));
@@ -172,7 +175,7 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
       slope = plateau * std::exp(4 * flat) / 4 +
               level * std::exp((2 - 2 * h) * corner) * grown(2 - 2 * h, reach);
     } else {
-      // In u = q_r² + q², from q_r² by the factor e^t.
+      // Integrate over u = q_r² + q² with the roll-off q_r, from u = q_r² up by the factor e^reach.
       const double from = 2 * corner, reach = std::log1p(std::exp(2 * (end - corner)));
       height = level / 2 * std::exp(-h * from) * grown(-h, reach);
       slope = level / 2 * std::exp((1 - h) * from) * (grown(1 - h, reach) - grown(-h, reach));
@@ -187,8 +190,9 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
 
 namespace {
 
-/// C of a table at wave numbers below its end. The curvatures, whose cost is the third power of the
-/// number of knots, are found once for all of them.
+/// Power spectral density C of a tabulated spectrum at wave numbers below its end. The curvatures
+/// of the spline cost the third power of the number of knots and are computed once for all wave
+/// numbers.
 std::vector<double> table_density(const TwinDraw& draw, const std::vector<double>& wavenumbers) {
   std::vector<double> positions, densities;
   for (const double knot : draw.knots) positions.push_back(std::log(knot));
@@ -221,7 +225,7 @@ SpectrumTable tabulated(const TwinDraw& draw, double lowest, int points_per_deca
   const double corner = draw.form == SpectrumForm::corner ? 2 * std::numbers::pi / draw.rolloff : 0;
   SpectrumTable table;
   for (double q = lowest; q < end * (1 - 1e-9); q *= step) {
-    // A corner between two points is one more.
+    // The wave number of a corner between two points becomes a point of the table.
     if (!table.wavenumber.empty() && corner > table.wavenumber.back() && corner < q)
       table.wavenumber.push_back(corner);
     table.wavenumber.push_back(q);

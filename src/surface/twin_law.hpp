@@ -8,15 +8,16 @@
 
 namespace salebra::twin_detail {
 
-/// ln C as a function of its parameters: (ln A, H, ln λ_r, ln λ_s), A being C of the power law at
-/// the reference, or ln C at the knots of a spline, and ln λ_s. C ends at λ_s; that is for the
-/// caller.
+/// ln of the power spectral density C as a function of its parameters. Self-affine forms have the
+/// parameters ln A, Hurst exponent, ln of the roll-off wavelength λ_r and ln of the cut-off
+/// wavelength λ_s, where A is the C of the power law at the wave number `reference`; a table has ln
+/// C at the knots of a spline, and ln λ_s. The caller must set C to 0 at wavelengths below λ_s.
 struct TwinLaw {
   static constexpr Index hurst = 1, rolloff = 2;
 
   SpectrumForm form = SpectrumForm::corner;
   double reference = 1;       ///< q0, rad/m
-  std::vector<double> knots;  ///< ln(q/q0) of a table
+  std::vector<double> knots;  ///< ln(q/reference) of the knots of a table
 
   Index size() const {
     return form == SpectrumForm::table ? static_cast<Index>(knots.size()) + 1 : 4;
@@ -25,24 +26,26 @@ struct TwinLaw {
   bool table() const { return form == SpectrumForm::table; }
 };
 
-/// Where C is wanted.
+/// Wave numbers q at which C is evaluated, with powers of q and spline bases computed in advance.
 struct LawPoints {
   LawPoints(const TwinLaw& law, std::span<const double> wavenumbers);
 
-  std::vector<double> x;       ///< ln(q/q0)
-  std::vector<double> square;  ///< (q/q0)²
-  Eigen::MatrixXd basis;       ///< of a table: ln C = basis·(ln C at the knots)
+  std::vector<double> x;       ///< ln(q/reference)
+  std::vector<double> square;  ///< (q/reference)²
+  Eigen::MatrixXd basis;       ///< for a table: ln C = basis·(ln C at the knots)
 };
 
-/// values[k] = ln C at the first values.size() points.
+/// values[k] = ln of the power spectral density at points k = 0 … values.size() − 1.
 void log_density(const TwinLaw& law, std::span<const double> parameters, const LawPoints& points,
                  std::span<double> values);
 
-/// slopes(k, p) = ∂ln C/∂parameter p at the first `count` points, but for the cut-off's, which is 0.
+/// slopes(k, p) = ∂ln C/∂(parameter p) at the points k < count, with the power spectral density C;
+/// 0 for the cut-off.
 void log_density_slopes(const TwinLaw& law, std::span<const double> parameters,
                         const LawPoints& points, Index count, Eigen::MatrixXd& slopes);
 
-/// The spectrum with its moments; those of a table from the wave number `lowest` on.
+/// The spectrum with these parameters, and its moments; the moments of a table begin at the wave
+/// number `lowest`.
 TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double lowest);
 
 }  // namespace salebra::twin_detail

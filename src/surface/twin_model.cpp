@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expected spectra of scans, their likelihood and its slopes.
+// Expected spectra of scans, their likelihood and its derivatives.
 #include "surface/twin_model.hpp"
 
 #include <Eigen/Cholesky>
@@ -16,17 +16,21 @@ namespace {
 using std::numbers::pi;
 
 constexpr double tail_freedom = 4, blur_freedom = 0.05;
-constexpr double min_gain_error = 1e-4;  ///< for calibrations of 0
-constexpr double bend_freedom = 1.5;       ///< of second differences of ln C between knots
+constexpr double min_gain_error = 1e-4;  ///< minimum standard deviation of a gain, for
+                                         ///< calibrations of 0
+constexpr double bend_freedom = 1.5;     ///< standard deviation of second differences of ln C
+                                         ///< between knots
 
-/// r − 1 − ln r, without cancellation.
+/// r − 1 − ln r for r = `ratio`, without cancellation near r = 1.
 double deviation(double ratio) {
   const double off = ratio - 1;
   return std::abs(off) < 1e-3 ? off * off * (0.5 - off * (1.0 / 3 - off / 4))
                               : off - std::log(ratio);
 }
 
-/// Signed √(2m(r − 1 − ln r)) of r = P/E, and its slope in ln E.
+/// √(2m(r − 1 − ln r)) with the sign of r − 1, for the ratio r of measured to expected power and
+/// the number m of modes (`precision`), and its derivative with respect to ln of the expected
+/// power.
 std::pair<double, double> deviance_residual(double ratio, double precision) {
   const double root = std::sqrt(2 * precision * deviation(ratio));
   const double value = ratio < 1 ? -root : root;
@@ -34,7 +38,8 @@ std::pair<double, double> deviance_residual(double ratio, double precision) {
   return {value, slope};
 }
 
-/// Weight of the tip's tail, which begins at 0.90 … 0.96 of the cut-off.
+/// Weight of the power that a tip adds beyond the cut-off: it rises from 0 at 0.90 of the cut-off
+/// wave number to 1 at 0.96.
 double beyond(double wavenumber, double cutoff) {
   return std::clamp((wavenumber / cutoff - 0.90) / 0.06, 0.0, 1.0);
 }
@@ -56,7 +61,7 @@ TwinModel::TwinModel(const std::vector<TwinData>& data, TwinLaw law)
   }
   set_tolerance(0.3, 0.3, 1);
 
-  // Gains of one instrument go together.
+  // Groups of scans of one instrument share its calibration error.
   const auto count = static_cast<Index>(data_.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   for (Index i = 0; i < count; ++i)
@@ -89,7 +94,8 @@ TwinModel::TwinModel(const std::vector<TwinData>& data, TwinLaw law)
     highest_[TwinLaw::rolloff] = std::log(30 * largest_);
   }
 
-  // The priors are linear: their slopes are those at 0.
+  // The residuals of the priors are linear in the parameters, so their derivatives are the same
+  // everywhere.
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(size_);
   const Eigen::VectorXd start = priors(none);
   prior_slopes_.resize(start.size(), size_);
@@ -101,8 +107,9 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].precisions.clear();
     for (std::size_t bin = 0; bin < data_[g].bins.size(); ++bin) {
-      // If the lower limit of a bin is about the cut-off, little but leakage of a sharp edge is left.
-      constexpr double half_bin = 1.0724;  // √1.15
+      // A bin that begins at the cut-off contains little but leakage across the sharp end of the
+      // spectrum.
+      constexpr double half_bin = 1.0724;  // √1.15, half of a bin's ratio
       const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
       const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
                        : q > 0.8 * cutoff         ? beyond_cutoff
@@ -217,7 +224,7 @@ Eigen::MatrixXd TwinModel::slopes_of_expected(const Eigen::VectorXd& parameters,
       column[cell] = -2 * variance * own.square[cell] * work.source[cell];
     project(law_.size());
   }
-  // The cut-off moves the part of its cell that is below it.
+  // The cut-off wavelength changes how much of the last cell lies below the cut-off.
   const double end = std::log(2 * pi) - parameters[law_.cutoff()];
   if (cells > 0 && end < data.cell_high[cells - 1]) {
     std::ranges::fill(column, 0.0);
@@ -259,7 +266,8 @@ void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::
       if (own.blur >= 0) (*slopes)(row, own.blur) = factor * of_expected(at, law_.size());
       if (own.tail < 0) continue;
       (*slopes)(row, own.tail) = factor * tail(parameters, group, bin);
-      // ∂/∂ln λ_s of the weight of the tail: its place q/q_s moves.
+      // Derivative of the tail's weight with respect to ln λ_s, the cut-off wavelength: the weight
+      // depends on the wave number relative to the cut-off.
       const double position = data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
       if (position > 0.90 && position < 0.96)
         (*slopes)(row, law_.cutoff()) +=
@@ -291,8 +299,8 @@ TwinModel::Misfit TwinModel::misfit_of(const Eigen::VectorXd& parameters, std::s
     const double tolerance = 1 / groups_[group].precisions[bin] - 1 / data.modes[bin];
     precisions.push_back(1 / (1 / (share * data.modes[bin]) + tolerance));
   }
-  // A scan's own gain, at its most likely value.
-  double shift = 0;  // twice its logarithm
+  // Find the most likely gain (factor of the heights) of this scan.
+  double shift = 0;  // twice the logarithm of the gain
   Misfit sum;
   for (int iteration = 0; share < 1 && iteration < 20; ++iteration) {
     double up = 0, down = 1e-300;

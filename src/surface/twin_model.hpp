@@ -12,31 +12,31 @@
 
 namespace salebra::twin_detail {
 
-/// Scans of one instrument, size and grid, in the bins that are used.
+/// Scans of one instrument, size and grid (a group), with the bins that the fit uses.
 struct TwinData {
-  std::vector<std::size_t> scans;  ///< places in the list of all scans
+  std::vector<std::size_t> scans;  ///< indices into the list of all scans
   std::string instrument;
   double height_calibration = 0, scan_calibration = 0;
-  double mean_scans = 1;     ///< scans whose own gains average out, (Σw)²/Σw²
-  double blur = 0;           ///< σ, m
-  double noise = 0;          ///< N, of the unit of psd
-  double noise_freedom = 0;  ///< standard deviation of ν
+  double mean_scans = 1;     ///< effective number of scans, (Σw)²/Σw² for weights w
+  double blur = 0;           ///< standard deviation of the optical blur, m
+  double noise = 0;          ///< power of the noise, in the unit of psd
+  double noise_freedom = 0;  ///< standard deviation of the noise parameter
   bool tip = false;
-  double tip_limit = 0;       ///< rad/m from which bins were left out for the tip; 0 for none
-  double tail_reference = 0;  ///< q_c, rad/m
+  double tip_limit = 0;       ///< bins from here on are left out for the tip, rad/m; 0: none
+  double tail_reference = 0;  ///< wave number at which a tip's tail is given, rad/m
 
-  std::vector<std::size_t> bins;  ///< places in the scans' bins
+  std::vector<std::size_t> bins;  ///< indices into the bins of the scans
   std::vector<double> wavenumber, psd;
-  std::vector<double> modes;                ///< m_c: independent modes in the mean
-  std::vector<double> leaked;               ///< that the window leaves of much longer waves
-  std::vector<double> psd_error;                ///< relative error of psd by tip and leakage
-  std::vector<double> scatter;              ///< variance of psd/E by that of m_c modes
-  std::vector<double> cell_low, cell_high;  ///< ln q of the cells' limits
+  std::vector<double> modes;                ///< m_c: number of independent modes
+  std::vector<double> leaked;               ///< power that the window leaks from much longer waves
+  std::vector<double> psd_error;            ///< relative error of psd due to tip and leakage
+  std::vector<double> scatter;              ///< variance of psd over that of a mean of m_c modes
+  std::vector<double> cell_low, cell_high;  ///< ln q of the limits of cells of the spectrum
   std::vector<double> cell_wavenumber;
-  std::vector<double> weights;  ///< [cell][bin used]
+  std::vector<double> weights;  ///< [cell][bin used]: power of a bin per C of a cell
 };
 
-/// Responses by grid in modes, so that each kind is computed once.
+/// Keeps the responses of scans by grid, in modes, to compute each only once.
 class Responses {
  public:
   const Response& of(const Grid2D& grid, bool drifts);
@@ -45,15 +45,17 @@ class Responses {
   std::map<std::tuple<Index, Index, double, bool>, Response> known_;
 };
 
-/// Groups of the scans but for those left out; bins by modes and tips. Spectra are means by weight.
+/// Groups the scans that are not left out, and selects bins by their number of modes and by what a
+/// tip follows. The spectrum of a group is the weighted mean of its scans.
 std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
                               const std::vector<bool>& left_out, Responses& responses);
 
-/// Posterior of the parameters (law; gains g and noises ν of all groups; tails τ of those with
-/// tips; ln of the blur's factor of blurred ones).
+/// Posterior density of the parameters: those of the law; for each group ln of its gain (factor of
+/// the heights) and ln of the factor of its noise; for groups with tips ln of their tail (power
+/// that a tip adds beyond the cut-off); and for blurred groups ln of the factor of the blur.
 class TwinModel {
  public:
-  /// Room for an evaluation; each thread has its own.
+  /// Memory for one evaluation; each thread has its own.
   struct Work {
     std::vector<double> source, expected, signal, ratio;
     Eigen::MatrixXd slopes;
@@ -65,30 +67,35 @@ class TwinModel {
   const std::vector<TwinData>& data() const { return data_; }
   Index size() const { return size_; }
   Index bins() const { return bins_; }
-  const Eigen::VectorXd& lowest() const { return lowest_; }  ///< bounds; of others than the law's,
-  const Eigen::VectorXd& highest() const { return highest_; }  ///< far away
-  double max_scan() const { return largest_; }             ///< m
-  double finest_wavenumber() const { return finest_; }         ///< rad/m, used
+  /// Bounds of the parameters; only those of the parameters of the law are narrow.
+  const Eigen::VectorXd& lowest() const { return lowest_; }
+  const Eigen::VectorXd& highest() const { return highest_; }
+  double max_scan() const { return largest_; }          ///< side of the largest scan, m
+  double finest_wavenumber() const { return finest_; }  ///< of the bins used, rad/m
 
-  /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of a bin comes, and in those
-  /// beyond 0.8 of the wave number `cutoff`; three times that where a bin begins there.
+  /// Sets the tolerance s for the deviation of the data from the law. A bin counts as m modes with
+  /// 1/m = 1/m_c + s² + (error of the bin)², where m_c is its number of independent modes. s is
+  /// `everywhere` in general, `beyond` at wave numbers above 0.8 times `cutoff`, and three times
+  /// `beyond` if a bin begins at the cut-off.
   void set_tolerance(double everywhere, double beyond, double cutoff);
 
-  /// −½|F|², or −∞ out of bounds; F of residuals().
+  /// ln of the posterior density, −½|F|² with the F of residuals(); −∞ out of bounds.
   double log_posterior(const Eigen::VectorXd& parameters, Work& work) const;
-  /// Priors, then signed deviance residuals of all bins; and their slopes.
+  /// Residuals F: those of the priors, then the signed deviance residuals of all bins; and the
+  /// derivatives of F with respect to the parameters if `slopes` is not null.
   void residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::VectorXd& values,
                  Eigen::MatrixXd* slopes) const;
-  /// E of the bins of a group.
+  /// Expected powers in the bins of a group.
   std::vector<double> expected(const Eigen::VectorXd& parameters, std::size_t group) const;
-  /// Deviance of a group's bins and what is expected of it.
+  /// Deviance of a group's bins (sum of squared deviance residuals) and its expected value.
   struct Misfit {
     double deviance = 0, expected = 0, gain = 1;
     double ratio() const { return deviance / expected; }
   };
   Misfit misfit(const Eigen::VectorXd& parameters, std::size_t group) const;
-  /// The same of other powers in the bins of a group, from fewer modes by the factor `share` < 1
-  /// and with a gain of their own, relative to the group's, which is found.
+  /// Deviance of other powers in the bins of a group, such as those of one scan, which have fewer
+  /// modes by the factor `share` < 1. The gain of these powers, relative to that of the group, is
+  /// fitted.
   Misfit misfit_of(const Eigen::VectorXd& parameters, std::size_t group,
                    const std::vector<double>& psd, double share) const;
 
@@ -98,17 +105,18 @@ class TwinModel {
   struct Group {
     LawPoints points;
     std::vector<double> square;      // q², m⁻²
-    std::vector<double> precisions;  // m
-    Index tail = -1, blur = -1;      // places of their parameters
+    std::vector<double> precisions;  // number m of modes that each bin counts as
+    Index tail = -1, blur = -1;      // indices of the tail and blur parameters
   };
 
   Index gain_at(std::size_t group) const { return law_.size() + static_cast<Index>(group); }
   Index noise_at(std::size_t group) const { return gain_at(group + data_.size()); }
-  /// Fills work.expected, work.signal (E without noise and tail); returns the number of cells below
-  /// the cut-off, whose C·M² is in work.source.
+  /// Fills work.expected (expected power of each bin) and work.signal (the same without noise and
+  /// tail). Returns the number of cells below the cut-off, whose densities, multiplied by the
+  /// squared attenuation by blur, are in work.source.
   std::size_t evaluate(const Eigen::VectorXd& parameters, std::size_t group, Work& work) const;
-  /// Slopes of E of a group in the parameters of the law and in the blur, column by column, after
-  /// evaluate(), which gave the cells.
+  /// Derivatives of the expected powers of a group with respect to each parameter of the law and
+  /// the blur, one column for each. Call evaluate() first; `cells` is the number that it returned.
   Eigen::MatrixXd slopes_of_expected(const Eigen::VectorXd& parameters, std::size_t group,
                                      std::size_t cells, Work& work) const;
   double tail(const Eigen::VectorXd& parameters, std::size_t group, std::size_t bin) const;

@@ -10,14 +10,15 @@
 namespace salebra::twin_detail {
 namespace {
 
-constexpr int settling = 80;     ///< steps before the first draw
-constexpr int min_steps = 30;  ///< after it
+constexpr int settling = 80;   ///< steps before the first draw
+constexpr int min_steps = 30;  ///< minimum number of steps after the first draw
 constexpr double apart =
-    15;  ///< states of walkers for a draw that is kept, so that draws are as good as independent
-constexpr double freedom = 6;  ///< degrees of the proposals' t distribution
+    15;  ///< states of walkers per kept draw, enough for nearly independent draws
+constexpr double freedom = 6;  ///< degrees of freedom of the proposals' t distribution
 enum Stream : std::uint32_t { choice = 101, chance, normals };
 
-/// Student t about the mean of half an ensemble.
+/// Student t distribution with the mean and covariance of half an ensemble of walkers, from which
+/// moves of the other half are drawn.
 class Proposal {
  public:
   explicit Proposal(const Eigen::MatrixXd& walkers) : mean_(walkers.rowwise().mean()) {
@@ -38,7 +39,7 @@ class Proposal {
       z[p] = pair.first;
       if (p + 1 < z.size()) z[p + 1] = pair.second;
     }
-    double chi_square = 0;  // of 6 degrees: three exponential variates
+    double chi_square = 0;  // χ² with 6 degrees of freedom: the sum of three exponential variates
     for (const std::int32_t k : {61, 62, 63})
       chi_square -= 2 * std::log(uniform_pair(seed, step, first + k, normals).first);
     return mean_ + std::sqrt(freedom / chi_square) * (factor_ * z);
@@ -73,9 +74,8 @@ Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd&
     });
 
   const int steps =
-      settling +
-      std::max(min_steps, static_cast<int>(std::ceil(static_cast<double>(draws) * apart /
-                                                       static_cast<double>(walkers))));
+      settling + std::max(min_steps, static_cast<int>(std::ceil(static_cast<double>(draws) * apart /
+                                                                static_cast<double>(walkers))));
   Eigen::MatrixXd kept(size, (steps - settling) * walkers);
   for (int step = 0; step < steps; ++step) {
     for (const Index first : {Index{0}, half}) {
@@ -107,7 +107,7 @@ Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd&
     }
     if (step >= settling) kept.middleCols((step - settling) * walkers, walkers) = at;
   }
-  // Evenly from all steps.
+  // Take the draws evenly from the states of all steps.
   Eigen::MatrixXd chosen(size, draws);
   for (Index draw = 0; draw < draws; ++draw)
     chosen.col(draw) = kept.col(std::min<Index>(

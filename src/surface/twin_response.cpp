@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Expected periodogram of tapered scans without their plane, as a matrix over the spectrum.
+// Expected power spectrum of scans that are tapered and levelled, as a matrix over cells of the
+// surface's spectrum.
 #include "surface/twin_response.hpp"
 
 #include <algorithm>
@@ -15,14 +16,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double tilt = 3.4;             ///< C ∝ κ^−tilt within a cell
-constexpr double longest = 0.01;         ///< κ of the longest waves
-constexpr double max_tapered = 30;  ///< κ of sources for the bins of the sine tapers
+constexpr double tilt = 3.4;        ///< C ∝ κ^−tilt within a cell of the spectrum C
+constexpr double longest = 0.01;    ///< κ of the longest waves
+constexpr double max_tapered = 30;  ///< maximum κ of waves in the bins of the sine tapers
 constexpr double max_hann = 60;
 constexpr double window_reach =
-    10;  ///< modes beyond which a Hann window passes less than 1e-7 of a wave
+    10;  ///< distance in modes beyond which a Hann window passes less than 1e-7 of a wave
 constexpr double flat_above =
-    3;  ///< κ of waves whose plane is nothing for the modes of the Hann bins
+    3;  ///< κ above which the plane of a wave is negligible in the modes of the Hann bins
 
 double sinc(double x) { return std::abs(x) < 1e-8 ? 1 : std::sin(pi * x) / (pi * x); }
 
@@ -31,7 +32,10 @@ double sinc_slope(double x) {
   return (std::cos(pi * x) - sinc(x)) / x;
 }
 
-/// ∫w(ξ) e^{2πiδξ}dξ over −½ … ½ without its factor of i for an odd taper, and its slope.
+/// Window w(ξ) along one side, −½ <= ξ <= ½. Its Fourier transform at the frequency δ,
+/// counted in modes of the side, is ∫w(ξ) e^{2πiδξ}dξ. combined(taper, δ, sinc) returns this
+/// transform, without the factor i that it has for the odd taper second_sine; combined(taper, δ,
+/// sinc_slope) returns its derivative with respect to δ.
 enum class Taper { first_sine, second_sine, hann };
 
 template <class Kernel>
@@ -47,13 +51,13 @@ double combined(Taper taper, double delta, const Kernel& kernel) {
   return std::sqrt(8.0 / 3) * (kernel(delta) / 2 + (kernel(delta - 1) + kernel(delta + 1)) / 4);
 }
 
-/// One taper along one side: transforms of a wave, of its mean and of its slope at the modes 0 …
-/// count.
+/// Fourier transforms, with one taper along one side of a scan, of a wave, of its mean and of its
+/// least-squares slope, at the modes 0 … count.
 struct SideModes {
   Taper taper;
-  double step;  ///< κ of a mode
+  double step;  ///< κ of one mode along this side
   std::vector<double> of_one, of_position;
-  // Numbers of the wave at hand:
+  // Set by take() for one wave:
   std::vector<double> wave, mean_part, slope_part;
 
   SideModes(Taper kind, double mode_step, Index count) : taper(kind), step(mode_step) {
@@ -80,7 +84,8 @@ struct SideModes {
   }
 };
 
-/// ∫κ^{1−tilt} dκ·2π c^tilt from a to b: the area of a ring, weighted.
+/// Area of the ring from κ = a to b, weighted by the spectrum relative to its value at κ = c:
+/// ∫κ^{1−tilt} dκ·2π c^tilt, with c = `centre`.
 double ring(double a, double b, double centre) {
   a = std::max(a, 1e-3 * b);
   return 2 * pi * std::pow(centre, tilt) * (std::pow(a, 2 - tilt) - std::pow(b, 2 - tilt)) /
@@ -110,7 +115,8 @@ std::size_t cell_of(const Response& response, double kappa) {
   return std::min(static_cast<std::size_t>(after) - 1, response.middle.size() - 1);
 }
 
-/// The modes of a scan from one wave number to another with k_x, k_y >= 0, and the power at them.
+/// The modes (k_x, k_y) of a scan with k_x, k_y >= 0 and κ between inner and outer, and the power
+/// in them.
 struct Quadrant {
   ScanModes modes;
   double inner, outer;
@@ -131,7 +137,8 @@ struct Quadrant {
   }
 };
 
-/// Adds the mean power of the waves of one wave number, times a weight.
+/// Adds to each mode of the quadrant the mean power, over all directions, that it has from waves of
+/// wave number κ, times a weight.
 void add_waves(double kappa, double weight, bool narrow, Quadrant& quadrant) {
   const ScanModes& modes = quadrant.modes;
   auto &along_x = quadrant.along_x, &along_y = quadrant.along_y;
@@ -178,13 +185,13 @@ void add_waves(double kappa, double weight, bool narrow, Quadrant& quadrant) {
   }
 }
 
-/// Bins that are made with the same tapers: first … last−1.
+/// The bins first … last − 1, which all use the same tapers.
 struct TaperedBins {
   std::size_t first, last;
   std::vector<Taper> tapers;
 };
 
-/// Weights of the cells in the bins.
+/// Adds the response of the bins in `some`, with their tapers, to all cells of the spectrum.
 void add_full_response(const ScanModes& modes, const std::vector<double>& limits, bool drifts,
                        const TaperedBins& some, Response& response) {
   const std::size_t first = some.first, last = some.last;
@@ -201,7 +208,7 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
       const double low = response.limits[at], high = response.limits[at + 1];
       quadrant.power.assign(
           static_cast<std::size_t>((quadrant.count_x + 1) * (quadrant.count_y + 1)), 0.0);
-      // Waves at most 0.35 modes apart.
+      // Represent a cell by waves whose κ are at most 0.35 modes apart.
       const int parts = std::max(1, static_cast<int>(std::ceil((high - low) / 0.35)));
       for (int part = 0; part < parts; ++part) {
         const double a = low + (high - low) * part / parts,
@@ -230,7 +237,8 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
   });
 }
 
-/// Share of a wave's power that a Hann window leaves below its wave number plus `modes`.
+/// Fraction of a wave's power that is found, through a Hann window, at wave numbers below its own
+/// plus `modes` modes.
 double hann_below(double modes) {
   constexpr double reach_of_table = 8, spacing = 0.02;
   static const std::vector<double> table = [] {
@@ -248,8 +256,8 @@ double hann_below(double modes) {
          (position - static_cast<double>(before)) * (table[before + 1] - table[before]);
 }
 
-/// Mean of C over the bin, with limits as sharp as the window has them, and over the waves that the
-/// points of the scan fold into it.
+/// Adds the response of a bin above κ = 36: the mean of the spectrum C over the bin, whose limits
+/// are as sharp as the window allows, and over the waves that sampling folds into the bin.
 void add_mean(const ScanModes& modes, const Grid2D& grid, const std::vector<double>& limits,
               std::size_t bin, Response& response) {
   const double low = limits[bin], high = limits[bin + 1];
@@ -286,7 +294,7 @@ void add_mean(const ScanModes& modes, const Grid2D& grid, const std::vector<doub
     }
 }
 
-/// ∫dκ_x dκ_y over each cell between two κ_x >= 0, both signs of κ_y.
+/// Area ∫dκ_x dκ_y of each cell of the spectrum between two κ_x >= 0, for both signs of κ_y.
 std::vector<double> strips(const Response& response, double from, double to) {
   std::vector<double> areas;
   double before = 0;
@@ -303,8 +311,9 @@ std::vector<double> strips(const Response& response, double from, double to) {
   return areas;
 }
 
-/// A profile's C₁ at its modes: of the waves of κ_x, both signs, how much the tapers leave in each
-/// bin, times C₁ of κ_x from the cells.
+/// Adds the response of all bins of a line profile: the fraction of each wave κ_x, of either sign,
+/// that the tapers leave in a bin, times the profile's density C₁ at κ_x, an integral over the
+/// cells of C.
 void add_profile(const ScanModes& modes, const std::vector<double>& limits, Response& response) {
   const double unit = 2 * pi / modes.side;
   const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
@@ -316,7 +325,8 @@ void add_profile(const ScanModes& modes, const std::vector<double>& limits, Resp
   std::vector<SideModes> sides;
   for (const Taper taper : {Taper::first_sine, Taper::second_sine, Taper::hann})
     sides.emplace_back(taper, 1, last);
-  // Fine where the plane takes most of a wave, and its share is as κ_x⁴.
+  // The steps of κ_x are fine at small κ_x, where the least-squares line removes most of a wave and
+  // what remains grows as κ_x⁴.
   std::vector<double> positions{0};
   while (positions.back() < max_hann)
     positions.push_back(positions.back() + std::clamp(positions.back() / 20, 0.002, 0.04));
@@ -340,7 +350,7 @@ void add_profile(const ScanModes& modes, const std::vector<double>& limits, Resp
       }
     for (std::size_t bin = 0; bin < full; ++bin) add(bin, areas, shares[bin]);
   }
-  // Means over the bin, and over the waves that the points fold into it.
+  // In the bins above κ = 36, means over the bin and over the waves that sampling folds into it.
   const double period = 2 * modes.nyquist;
   for (std::size_t bin = full; bin < response.bins; ++bin) {
     const double low = limits[bin], high = limits[bin + 1], share = 1 / (high - low);
@@ -359,7 +369,7 @@ Response response_of(const Grid2D& grid, bool drifts) {
   const std::vector<double> limits = bin_limits(modes.nyquist);
   const std::size_t bins = limits.size() - 1;
   if (grid.ny == 1) {
-    // Waves across the line are in it, however short.
+    // The spectrum of a profile contains waves that run across it, however short they are.
     Response response = empty_response(40 * modes.nyquist, bins);
     add_profile(modes, limits, response);
     return response;

@@ -7,28 +7,29 @@
 
 namespace salebra::twin_detail {
 
-/// What a scan's binned periodogram is expected to be, E_b = Σ_j C(q_j) weight_jb, as a matrix
-/// over cells of the spectrum in |κ|. The cells have limits in the ratio 1.15^⅓ (those of the bins
-/// above 8.5 are among them), C is taken at their geometric middle, and within a cell it is
-/// weighted as κ^−3.4.
+/// Expected power of a scan in bin b, E_b = Σ_j C(q_j) weight_jb, as a matrix over cells j of the
+/// spectrum C in the mode κ. The limits of the cells are in the ratio 1.15^⅓ and include those of
+/// the bins above κ = 8.5. C is taken at the geometric middle q_j of a cell and varies within it as
+/// κ^−3.4.
 struct Response {
-  std::vector<double> limits;  ///< κ of the cells' limits, the first cell from 0 on
-  std::vector<double> middle;  ///< κ
+  std::vector<double> limits;  ///< κ of the cells' limits; the first cell begins at 0
+  std::vector<double> middle;  ///< κ of the cells' geometric middles
   std::size_t bins = 0;
-  std::vector<double> weights;  ///< [cell][bin]
+  std::vector<double> weights;  ///< E_b/C(q_j): [cell j][bin b]
 
   double weight(std::size_t cell, std::size_t bin) const { return weights[cell * bins + bin]; }
 };
 
-/// Below κ = 36 it is the mean over the modes of the bin and over directions of the power that the
-/// taper finds of a plane wave less its own least-squares plane: it holds the convolution with the
-/// window, the removal of the plane and the leakage of waves longer than the scan. All terms are
-/// products of one-dimensional transforms, which have closed forms for points close together. Above
-/// it is the mean of C over the bin and, beyond half of the Nyquist mode, over the waves that the
-/// points fold into it.
-/// A profile's C₁ = ∫C dq_y comes from the same cells of C, by the integral over q_y in closed form.
+/// Computes the response of a scan. Bins below κ = 36 average, over their modes and over
+/// directions, the power that the taper finds in a plane wave less the wave's own least-squares
+/// plane. This includes the convolution with the window, the removal of the plane and the leakage
+/// of waves longer than the scan. All terms are products of one-dimensional transforms, which have
+/// closed forms in the limit of closely spaced points. Bins above κ = 36 average the spectrum C
+/// over the bin and, beyond half of the Nyquist mode, over the waves that sampling folds into the
+/// bin. A profile's C₁ = ∫C dq_y comes from the same cells of C; the integral over q_y has a closed
+/// form.
 /// grid     of the scan
-/// drifts   the modes |k_x| <= drift_modes are left out
+/// drifts   whether the modes |k_x| <= drift_modes, which drift of lines spoils, are left out
 /// Cost: 0.1 s for a map, less for a profile.
 Response response_of(const Grid2D& grid, bool drifts);
 

@@ -26,7 +26,7 @@ TEST_CASE("A damping constant does not ask for the velocity of the slow motion",
   const DamperSolution damper = solve(DamperProblem{
       .contact = contact, .normal_amplitude = {1e-8, 2e-8}, .angular_frequency = {omega}});
   REQUIRE(moving.results.size() == 2);
-  // Both are quadratures to 1e-10.
+  // Both are quadratures with an error of 1e-10.
   for (const DampingResult& result : moving.results)
     CHECK(damper.map.damping_constant(1, 0) == Approx(result.damping_constant).epsilon(1e-9));
   CHECK(answer_json(moving)["damping_constant"].size() == 2);
@@ -40,7 +40,7 @@ TEST_CASE("Much friction is no slip, and little of it loses less by relaxation",
     return solve(DampingProblem{.contact = contact, .motions = {motion}, .parameters = parameters});
   };
   const DampingSolution much = with(1e5), little = with(0.1);
-  // 2000 straight steps, of second order.
+  // 2000 straight steps, at second order.
   const DampingSolution without = solve(DampingProblem{.contact = contact, .motions = {motion}});
   const double stuck = without.results.at(0).work_per_cycle;
   CHECK(much.results.at(0).work_per_cycle == Approx(stuck).epsilon(1e-4));
@@ -55,7 +55,7 @@ TEST_CASE("Much friction is no slip, and little of it loses less by relaxation",
 TEST_CASE("What decides and is missing leaves the loss unknown, with what to give", "[analysis]") {
   ContactParameters parameters;
   parameters.friction_coefficient = 0.3;
-  const double way = 2 * pi * 1e-5 / omega;  // of one normal cycle
+  const double way = 2 * pi * 1e-5 / omega;  // distance per normal cycle
   const auto ask_of = [&](const Motion& motion, const std::string& why) {
     const DampingSolution solution =
         solve(DampingProblem{.contact = contact, .motions = {motion}, .parameters = parameters});
@@ -69,7 +69,7 @@ TEST_CASE("What decides and is missing leaves the loss unknown, with what to giv
   const Drag slow{2e-8, 1e-5, omega};
   ask_of(slow, "`excursion`; give it");
   parameters.excursion = 0.9 * way;
-  ask_of(slow, "turns back within one normal cycle");
+  ask_of(slow, "reverses within one normal cycle");
   parameters.excursion = 100 * way;
   const DampingResult back = ask_of(slow, "");
   CHECK(back.damping_constant ==
@@ -94,7 +94,7 @@ TEST_CASE("A joint is that of its law, and what a surface alone has is refused o
     CHECK(constant.losses.at(i).work_per_cycle ==
           joint_loss(law, at_force(1), problem.motions[i], 0.3).work_per_cycle);
   CHECK(constant.state.normal_stiffness == Approx(1e7));  // F/l
-  // The larger of the two motions is the one that is judged.
+  // The larger of the two motions is judged.
   CHECK(constant.largest.tangential_amplitude ==
         std::max(2e-9, constant.losses[1].tangential_amplitude));
   problem.normal_amplitude = 2e-8;

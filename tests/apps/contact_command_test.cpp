@@ -79,7 +79,7 @@ TEST_CASE("A checkpoint keeps the pressure of a contact until it has converged",
   CHECK((pressure >= 0).all());
   CHECK(pressure.mean() == Approx(2e7).epsilon(1e-6));  // in float
 
-  check_refused(test.run(kept), "c.h5: exists; continue from it with --initial c.h5");
+  check_refused(test.run(kept), "c.h5: exists already; continue from it with --initial c.h5");
   const auto warm = test.answer(kept + "--initial c.h5");
   CHECK(warm["converged"] == true);
   CHECK(warm["iterations"] < plain["iterations"]);
@@ -90,7 +90,7 @@ TEST_CASE("A checkpoint keeps the pressure of a contact until it has converged",
   // One command for the first time and for every other.
   const auto anew = test.run(kept + "--initial c.h5");
   CHECK(numbers(anew) == plain);
-  CHECK_THAT(anew.err, Contains("c.h5 is not there yet: the contact starts anew"));
+  CHECK_THAT(anew.err, Contains("c.h5 does not exist yet: the contact starts from the beginning"));
 }
 
 TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last one stays",
@@ -108,7 +108,7 @@ TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last
   const auto full = test.run(loud + "--max-iterations 4", "ulimit -f 16;");
   CHECK(full.status == 1);
   CHECK_THAT(full.err, Contains("salebra: warning: --checkpoint: c.h5: cannot be written"));
-  CHECK_THAT(full.err, Contains("; the file before stays"));
+  CHECK_THAT(full.err, Contains("; the earlier checkpoint is kept"));
   // Four checkpoints failed, and one line says so.
   CHECK(full.err.find("warning: --checkpoint") == full.err.rfind("warning: --checkpoint"));
   CHECK_THAT(full.err, Contains("raise --max-iterations"));
@@ -161,7 +161,7 @@ TEST_CASE("The output of a contact has the fields asked for, in double or float"
     CHECK(test.answer(press + "--initial " + file)["iterations"] < whole["iterations"]);
   check_refused(test.run(press + "--initial none.h5"), "none.h5 has no contact pressure");
   check_refused(test.run("statistics none.h5"), "none.h5: has no dataset heights");
-  check_refused(test.run("report none.h5 -o none.html"), "none.h5: contains no study");
+  check_refused(test.run("report none.h5 -o none.html"), "none.h5: does not contain a study");
 }
 
 TEST_CASE("Flow factors and densities of a contact are those of its fields", "[contact][flow]") {

@@ -337,8 +337,9 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
     const auto single = [&](const char* dataset) { return file.numbers(dataset)[row]; };
     CHECK(found["decay_length"]["mean"] == single("fit/ensemble_decay_length_mean"));
     CHECK(found["area_slope"]["mean"] == single("fit/ensemble_area_slope_mean"));
-    CHECK(found["law_bend"]["mean"] ==
-          Approx(single("fit/decay_length_at_max_gap") / single("fit/decay_length_at_min_gap") - 1));
+    CHECK(
+        found["law_bend"]["mean"] ==
+        Approx(single("fit/decay_length_at_max_gap") / single("fit/decay_length_at_min_gap") - 1));
     ++row;
   }
   for (const std::string name :

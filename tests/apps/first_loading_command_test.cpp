@@ -34,7 +34,8 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
        {"damping --surface rough.h5 --drag-velocity 1um/s ", "damping --surface rough.h5 ",
         "sliding --surface rough.h5 --friction-coefficient 0.3 --velocities 1um/s ",
         "joint --surface rough.h5 --friction-coefficient 0.3 --tangential-amplitudes 0.1nm ",
-        "oscillate --surface rough.h5 --mode drag --drag-velocity 1um/s --method levels --intervals "
+        "oscillate --surface rough.h5 --mode drag --drag-velocity 1um/s --method intervals "
+        "--intervals "
         "8 "}) {
     INFO(command);
     const auto ask = [&](const std::string& hardness) {

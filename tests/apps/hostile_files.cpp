@@ -162,7 +162,7 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     good(H5Pset_fletcher32(properties));
     fill(surface(file, "heights", 16, properties), 256);
   });
-  add("unwritten.h5", "larger than what the file holds", [](hid_t file) {
+  add("unwritten.h5", "larger than its data in the file", [](hid_t file) {
     const hid_t properties = chunked(1 << 10);
     surface(file, "heights", hsize_t{1} << 20, properties);
   });
@@ -230,7 +230,8 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     const hid_t type = good(H5Tcopy(H5T_IEEE_F64LE));
     good(H5Tcommit2(file, "heights", type, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   });
-  add("group-as-heights.h5", "a group and no dataset", [](hid_t file) { group(file, "heights"); });
+  add("group-as-heights.h5", "a group instead of a dataset",
+      [](hid_t file) { group(file, "heights"); });
   return files;
 }
 

@@ -170,7 +170,7 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
       const auto result = run_bounded(test, command, 0);
       INFO(result.err);
       // Such a build reads no file for a report.
-      if (holds(result.err, "this build of salebra carries no plotly.js")) continue;
+      if (holds(result.err, "this build of salebra does not contain plotly.js")) continue;
       check_harmless(result, "");
     }
   }
@@ -282,7 +282,7 @@ TEST_CASE("A study's verdict enters a deck as a known word alone", "[hostile]") 
     hostile::set_text(test.folder() / "study.h5", "solution", "validity", verdict);
     for (const std::string format : {"csv", "calculix", "ansys", "code-aster", "abaqus", "json"})
       check_harmless(test.run("export study.h5 --to " + format + " -o deck"),
-                     "is no verdict of a study");
+                     "is not a verdict of a study");
     CHECK_FALSE(fs::exists(test.folder() / "deck"));
   }
   hostile::set_text(test.folder() / "study.h5", "solution", "validity", "not valid");

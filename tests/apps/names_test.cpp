@@ -8,10 +8,10 @@
 #include <regex>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/assumptions.hpp>
 #include <salebra/export/deck.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
@@ -306,7 +306,8 @@ TEST_CASE("Every dataset of a comparison has the name, unit and meaning of its d
   const ResultReader reader(test.folder() / "grid.h5");
   check_group(reader, "ensemble", "ensemble");
   for (const std::string& group : reader.groups("points/1"))
-    if (group != "picture" && group != "assumptions") check_group(reader, "points/1/" + group, group);
+    if (group != "picture" && group != "assumptions")
+      check_group(reader, "points/1/" + group, group);
   // The answer has the same, with a mean and its limits for each.
   const json point = run["points"][1];
   check_keys(point["spots"], groups.at("spots"));

@@ -115,7 +115,7 @@ TEST_CASE("Decks of a part have its forces, the pressures of the sample, and bot
     const std::string of_sample = test.done(options).out,
                       of_part = test.done(options + " --nominal-area 1mm2").out;
     CHECK_THAT(of_sample, Contains("Nominal area: 1e-10."));
-    CHECK_THAT(of_part, Contains("Nominal area: 1e-06, of the part.") &&
+    CHECK_THAT(of_part, Contains("Nominal area of the part: 1e-06.") &&
                             Contains("sample of 1e-10") && Contains("times 10000."));
   }
   const auto rows = [&](const std::string& options) {

@@ -31,7 +31,8 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
           "[oscillate]") {
   const ProgramTest test;
   const std::string without_friction =
-      "oscillate --shape cone --points 40 --steps 16 --intervals 4 --contact-modulus 1GPa --poisson "
+      "oscillate --shape cone --points 40 --steps 16 --intervals 4 --contact-modulus 1GPa "
+      "--poisson "
       "0.3 --direction 30deg --phase 45deg --json --friction ";
   const std::string command = without_friction + "0.4 ";
   const auto whole = test.answer(command);
@@ -45,7 +46,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   if (salebra::testing::skipped(killed.status == 0, "the cycle ended before it was killed")) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(without_friction + "0.5 --checkpoint c.h5 --resume"),
-                "friction_coefficient was 0.4");
+                "friction_coefficient is 0.4");
   // A checkpoint that is told something else ends otherwise: both cycles go on from it and do not
   // begin anew.
   const salebra::CycleSettings settings = settings_in(test.folder() / "c.h5");
@@ -107,7 +108,7 @@ TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
   if (salebra::testing::skipped(killed.status == 0, "the cycle ended before it was killed")) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(with_checkpoint), "c.h5");
-  check_refused(test.run(without_phase + "40deg --checkpoint c.h5 --resume"), "phase was 0.785");
+  check_refused(test.run(without_phase + "40deg --checkpoint c.h5 --resume"), "phase is 0.785");
   const auto resumed = test.answer(with_checkpoint + " --resume");
   for (const char* key :
        {"work_per_cycle", "dissipated", "work", "time", "fft_count", "contact_area_max"})

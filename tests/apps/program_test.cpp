@@ -181,7 +181,7 @@ TEST_CASE("This installation agrees with the analytic solutions", "[program][ver
 }
 
 TEST_CASE("A reader of the answer that has what it wanted makes no error", "[program]") {
-  // The shell waits until the reader of the pipe has gone.
+  // The shell waits until the program that reads the pipe has gone.
   const auto result = ProgramTest().run("help damping", "mkfifo p; : <p & exec >p; wait;");
   CHECK(result.status == 0);
   CHECK(result.err.empty());
@@ -209,8 +209,8 @@ TEST_CASE("Warnings that cannot be printed stop no work, and an answer that cann
       INFO(command << nowhere);
       CHECK(result.status == 1);
       CHECK(result.err ==
-            "salebra: error: standard output: cannot be written; check the disk or the reader of "
-            "the pipe\n");
+            "salebra: error: standard output: cannot be written; check the disk or the program "
+            "that reads the pipe\n");
     }
 }
 

@@ -219,9 +219,10 @@ TEST_CASE("One of several tasks writes nothing but a shard", "[shard]") {
           "generate --points 64 --size-x 1um --hurst 0.8 --rms-height 1nm --seed 1 -o a.h5",
           "init b.toml"}) {
       INFO(several << ' ' << command);
-      check_refused(test.run(command, "export " + several + ";"),
-                    "would be written by each of several tasks, for this is one of 64 tasks; start "
-                    "one, or use salebra-mpi for one surface, study --shard for many");
+      check_refused(
+          test.run(command, "export " + several + ";"),
+          "would be written by each of several tasks: this process is one of 64 tasks; "
+          "start only one, or use salebra-mpi for one surface and study --shard for many");
     }
   check_refused(test.run("init b.toml", "export PMIX_RANK=1;"), "one of several tasks");
   test.done("init b.toml", "export SLURM_STEP_NUM_TASKS=1 PMIX_RANK=0;");

@@ -209,7 +209,7 @@ TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[s
   check_refused(test.run("compare study.toml --plot all.svg"), "exists");
 }
 
-TEST_CASE("Without levels the loss is that of the curve, and no error is stated", "[study]") {
+TEST_CASE("Without intervals the loss is that of the curve, and no error is stated", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3]"));
   const std::string study = "study study.toml --no-stick --intervals 0 ";
@@ -233,8 +233,8 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
   const auto compared = test.run("compare study.toml --no-stick --intervals 0 --models gw_moments");
   CHECK(compared.status == 0);
   CHECK_THAT(compared.out, Contains("theorem"));
-  check_refused(test.run(study + "--relative-error 5%"), "--intervals: 0 levels state no error");
-  check_refused(test.run(study + "--seam-error window"), "--intervals: 0 levels state no error");
+  check_refused(test.run(study + "--relative-error 5%"), "--intervals: 0 intervals give no error");
+  check_refused(test.run(study + "--seam-error window"), "--intervals: 0 intervals give no error");
   std::string text = study_text("seeds = [3]");
   test.write("study.toml", text + "intervals = 0\n");
   CHECK(test.run("study study.toml --no-stick --json").json()["damping"] == damping);

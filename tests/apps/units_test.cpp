@@ -212,7 +212,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
                law,
            "damping --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
            "damping --frequency 1:100kHz:3 --falling-slope 5" + law, shape,
-           shape + "--method levels --relative-error 5% --decay-length 1um",
+           shape + "--method intervals --relative-error 5% --decay-length 1um",
            shape + "--friction 0.5 --coupled"}) {
     const auto json = test.run(command + " --json --quiet"), text = test.run(command + " --quiet");
     INFO(command << "\n" << json.err << text.out);

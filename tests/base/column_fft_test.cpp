@@ -19,7 +19,7 @@ using salebra::testing::stop_one;
 
 namespace {
 
-// The half-spectrum of a random field, cut to its first columns.
+// The half-spectrum of a random field, truncated to its first columns.
 std::vector<std::complex<double>> some_modes(Index nx, Index ny, Index columns) {
   RealFft2D<double> fft(nx, ny);
   std::vector<std::complex<double>> modes(std::size_t(nx * fft.modes_y()));
@@ -30,7 +30,7 @@ std::vector<std::complex<double>> some_modes(Index nx, Index ny, Index columns) 
   return modes;
 }
 
-// Whether the process has its rows of a field that one process has made, bit by bit.
+// Whether a process has its rows of a field that a single process made, bit by bit.
 bool has_its_rows(const Field& mine, const Field& whole, const RowPartition& rows) {
   return mine.rows() == rows.count() && mine.cols() == whole.cols() &&
          (mine.size() == 0 ||
@@ -59,8 +59,8 @@ TEST_CASE("A spectrum given by columns transforms as one given whole", "[fft]") 
     CHECK((serial == parallel_result).all());
     Field whole(nx, ny);
     RealFft2D<double>(nx, ny).backward(modes.data(), whole.data());
-    // Both round like eps·log n times the rms of the result, which is at most nx·ny times that of
-    // the random field.
+    // The rounding error of both is eps·log n times the rms of the result, which is at most nx·ny
+    // times that of the random field.
     CHECK((serial - whole).abs().maxCoeff() < 1e-14 * double(nx * ny));
   }
 }
@@ -74,9 +74,8 @@ TEST_CASE("A number of columns that the grid does not have is refused", "[fft]")
 }
 
 TEST_CASE("Columns of several processes transform to the bits of one process", "[fft][share]") {
-  // Even and odd, without rows for the last processes, with columns for some processes only; the
-  // last have groups for several batches, of which the last is not full, and more than one group in
-  // a batch.
+  // Even and odd sizes; no rows for the last processes; columns for only some processes. The last
+  // two sizes have several batches, the last of them not full, and several groups per batch.
   const auto [nx, ny] =
       GENERATE(std::pair<Index, Index>{64, 64}, std::pair<Index, Index>{96, 50},
                std::pair<Index, Index>{101, 64}, std::pair<Index, Index>{16, 16},
@@ -104,7 +103,7 @@ TEST_CASE("Columns of several processes transform to the bits of one process", "
           const RowPartition rows(together, nx);
           right +=
               has_its_rows(backward_by_columns(nx, ny, columns, counted, {}, rows), whole, rows);
-          // Shares need not be blocks, and the first process may be the one without rows.
+          // Shares need not be blocks, and the first process may have no rows.
           std::vector<Index> begins(static_cast<std::size_t>(ranks) + 1, nx);
           for (std::size_t k = 0; k + 1 < begins.size(); ++k)
             begins[k] = k < 2 ? 0 : std::min<Index>(nx, 5 * Index(k) - 7);
@@ -122,13 +121,13 @@ TEST_CASE("Columns of several processes transform to the bits of one process", "
 }
 
 TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft][share]") {
-  // The last process has columns and no rows.
+  // The last process has columns but no rows.
   const Index nx = 32, ny = 200, columns = 101;
   const auto zeros = [](Index, std::span<std::complex<double>> out) {
     std::fill(out.begin(), out.end(), 0.0);
   };
   const int ranks = 3, culprit = GENERATE(0, 1, 2);
-  // Reports of one process: how many there are, and whether they end at 1.
+  // Reports of one process: their number, and whether they end at 1.
   std::atomic<int> reports = 0;
   std::atomic<bool> in_order = true;
   parallel::set_threads(1);
@@ -150,7 +149,7 @@ TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft]
   REQUIRE(reports > 2);
   for (int stop = 1; stop <= reports; ++stop)
     CHECK(stop_one(ranks, culprit, stop, work).interrupted == ranks);
-  // One process after the other has no memory for one of its columns.
+  // Each process in turn has no memory for one of its columns.
   for (Index failing = 0; failing < columns; failing += 7) {
     std::atomic<int> failed = 0;
     run_ranks(ranks, [&](const Communicator& together) {
@@ -182,7 +181,8 @@ TEST_CASE(
     const RowPartition rows(together, n);
     const double of_rows = double(rows.count() * n) * sizeof(double),
                  memory = double(column_fft_memory(n, n, rows));
-    // The rows and columns of two threads come on top where the batch does not count them.
+    // Up to 4 % for rows and columns of two threads; with several processes, also a batch as large
+    // as the rows.
     right += memory > of_rows && memory < (ranks == 1 ? 1.04 : 2.04) * of_rows;
   });
   CHECK(right == ranks);
@@ -216,8 +216,8 @@ TEST_CASE("The columns of a spectrum are those of RealFft2D, for any number of p
   Modes whole(std::size_t(nx * all)), alone(whole.size());
   RealFft2D<double>(nx, ny).forward(field.data(), whole.data());
   CHECK(modes_of({}, alone));
-  // Both round like eps·log n times the largest mode, which is at least √(nx·ny)/2 for random
-  // heights.
+  // The rounding error of both is eps·log n times the largest mode, which is at least √(nx·ny)/2
+  // for random heights.
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < whole.size(); ++k) {
     largest = std::max(largest, std::abs(whole[k]));

@@ -26,12 +26,12 @@ double odd_symbol(Index i, Index j, Index px, Index py) {
   return -std::sin(2 * M_PI * double(i) / double(px)) * std::sin(2 * M_PI * double(j) / double(py));
 }
 
-// i times this: odd along one axis, even along the other.
+// 1/i of the transform of a kernel that is odd along one axis and even along the other.
 double odd_along_one_symbol(Index i, Index j, Index px, Index py) {
   return -std::sin(2 * M_PI * double(i) / double(px)) * std::cos(2 * M_PI * double(j) / double(py));
 }
 
-// The kernels of those symbols, point by point: 3δ + ¼ Σ δ(a±1, b±2) and ¼ Σ ±δ(a±1, b±1).
+// Applies the kernels of these symbols point by point: 3δ + ¼ Σ δ(a±1, b±2) and ¼ Σ ±δ(a±1, b±1).
 double circular(const Field& field, const Case& shape, Index a, Index b) {
   const Index i = (a % shape.period_x + shape.period_x) % shape.period_x;
   const Index j = (b % shape.period_y + shape.period_y) % shape.period_y;
@@ -63,8 +63,8 @@ double by_hand_odd_along_one(const Field& field, const Case& shape, Index a, Ind
 
 TEST_CASE("A convolution equals the sum over the kernel's points, circular and zero-padded",
           "[convolution]") {
-  // Rows are paired within blocks of 16: whole ones, a last one of 1, 7, 8 and 15 rows, and less
-  // than one.
+  // Rows are paired within blocks of 16. Cases: full blocks, a last block of 1, 7, 8 and 15 rows,
+  // and a single block that is not full.
   const Case shape =
       GENERATE(Case{16, 64, 16, 64}, Case{7, 45, 7, 45}, Case{1, 5, 1, 5}, Case{33, 20, 66, 40},
                Case{5, 6, 12, 15}, Case{23, 12, 23, 12}, Case{40, 9, 40, 9}, Case{47, 8, 94, 16});
@@ -135,12 +135,12 @@ TEST_CASE("A convolution has the same bits for one thread and for two, and may w
 
 TEST_CASE("A convolution of rows that are made and taken one by one is that of the whole field",
           "[convolution]") {
-  // 96 rows are six blocks of eight pairs, 45 leave a row without partner and a block that is not
-  // full.
+  // 96 rows are six blocks of eight pairs; 45 rows have a block that is not full and a row without
+  // partner.
   const Case shape = GENERATE(Case{96, 64, 96, 64}, Case{45, 20, 90, 40}, Case{1, 5, 1, 5});
   const int components = GENERATE(1, 2);
-  // One row of each of the first two pairs is empty, and both of the next. The second component has
-  // other empty rows.
+  // One row of each of the first two pairs is empty, and both rows of the third. The second
+  // component has other empty rows.
   const auto empty = [&](int component, Index row) {
     const Index half = (std::min<Index>(shape.nx, 16) + 1) / 2, shifted = row - component;
     return shifted == 0 || shifted == half + 1 || shifted == 2 || shifted == half + 2;
@@ -167,12 +167,12 @@ TEST_CASE("A convolution of rows that are made and taken one by one is that of t
         const double* values = fields[std::size_t(component)].data() + row * shape.ny;
         ++asked(component, row);
         if (empty(component, row)) {
-          // What is left in the room of an empty row does not count.
-          std::fill_n(room, shape.ny, 1e9);
+          // Values left in the buffer of an empty row must be ignored.
+          std::fill_n(buffer, shape.ny, 1e9);
           return nullptr;
         }
         if (row % 3 == 0) return values;
-        std::copy_n(values, shape.ny, room);
+        std::copy_n(values, shape.ny, buffer);
         return buffer;
       },
       [&](int component, Index row, const double* values) {

@@ -32,7 +32,7 @@ TEST_CASE("A refusal is one line, and has its parts", "[error]") {
   CHECK(whole.remedy() == "check that it is not a dimension");
   CHECK(whole.statement() == "1.5 must be below 1; check that it is not a dimension");
 
-  // Only the first semicolon ends the constraint: what to do may be two things.
+  // Only the first semicolon ends the constraint, because a remedy may contain another.
   const InvalidInput two = refusal([] { throw InvalidInput("a.h5", "is cut; copy it; or not"); });
   CHECK(two.what() == std::string("a.h5: is cut; copy it; or not"));
   CHECK(two.field() == "a.h5");
@@ -55,13 +55,13 @@ TEST_CASE("Of two things exactly one is given", "[error]") {
         std::string("force: not given, nor is indentation; give one of them"));
 }
 
-// One that throws while it is copied ends the program.
+// An exception that throws while it is copied ends the program.
 static_assert(std::is_nothrow_copy_constructible_v<InvalidInput>);
 
 TEST_CASE("What a refusal quotes is cut in the middle where it is long", "[error]") {
   CHECK(shortened("short", 5) == "short");
   CHECK(shortened("0123456789", 9) == "0123\u202689");
-  // Characters of two bytes stay whole.
+  // Two-byte characters stay whole.
   CHECK(shortened("\u00b5\u00b5\u00b5\u00b5\u00b5\u00b5", 10) == "\u00b5\u00b5\u2026\u00b5");
   const InvalidInput refusal("field", std::string(100'000, '7'), "must be small; give another");
   CHECK(refusal.value().size() <= 255);

@@ -24,7 +24,7 @@ TEST_CASE("A plane wave transforms into its own mode alone", "[fft]") {
   for (Index a = 0; a < nx; ++a)
     for (Index b = 0; b < fft.modes_y(); ++b) {
       const bool here = (a == i && b == j) || (j == 0 && a == (nx - i) % nx && b == 0);
-      // Rounding of an FFT of n points grows like eps·log n; 1e-12 leaves two decades.
+      // The rounding error of an FFT of n points grows like eps·log n; 1e-12 leaves two decades.
       CHECK(std::abs(modes[std::size_t(a * fft.modes_y() + b)] - (here ? expected : 0.0)) <
             1e-12 * expected);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the memory that machine, cgroups and resource limits leave, with made-up trees of /proc
+// Tests of the memory left by machine, cgroups and resource limits, with synthetic trees of /proc
 // and /sys.
 #include "base/memory.hpp"
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The root of a machine with 8 GB available, whose cgroups a test adds.
+/// The root of a machine with 8 GB available; tests add cgroups.
 class Machine {
  public:
   Machine() {
@@ -40,12 +40,12 @@ class Machine {
     fs::create_directories((scratch_ / file).parent_path());
     std::ofstream(scratch_ / file) << text;
   }
-  /// A memory cgroup of version 1 or 2 with its use, of which `cached` is file cache.
+  /// A memory cgroup of version 1 or 2 with its use; `cached` bytes of it are file cache.
   void group1(const std::string& path, const std::string& limit, long used, long cached) const {
     const std::string folder = "sys/fs/cgroup/memory" + path + "/";
     write(folder + "memory.limit_in_bytes", limit + "\n");
     write(folder + "memory.usage_in_bytes", std::to_string(used) + "\n");
-    // The plain names are those of the group without its children.
+    // The plain names count the group without its children.
     write(folder + "memory.stat", "inactive_file 1\nactive_file 1\ntotal_inactive_file " +
                                       std::to_string(cached - 1000) + "\ntotal_active_file 1000\n");
   }
@@ -93,7 +93,7 @@ TEST_CASE("A cgroup of version 2 leaves its limit less what is used, file cache 
   CHECK(machine.left() == 8000000.0 * 1024);
   machine.group2("/batch/job", "600000000", "max", 150000000, 50000000);
   CHECK(machine.left() == 500e6);
-  // Above memory.high a process is slowed down until it stands still.
+  // Above memory.high the kernel slows a process down to a standstill.
   machine.group2("/batch/job", "600000000", "400000000", 150000000, 50000000);
   CHECK(machine.left() == 300e6);
   machine.group2("/batch/job", "600000000", "max", 700000000, 50000000);
@@ -105,12 +105,12 @@ TEST_CASE("The closest limit on the way to the root of the cgroups counts", "[me
   machine.write("proc/self/mountinfo", mount2);
   machine.write("proc/self/cgroup", "0::/batch/user/job\n");
   machine.group2("/batch/user/job", "3000000000", "max", 2000000, 1000000);
-  // The parent's use is that of all its children.
+  // The parent's use includes all its children.
   machine.group2("/batch", "2000000000", "max", 1500000000, 100000000);
   CHECK(machine.left() == 600e6);
   machine.group2("/batch/user", "1000000000", "max", 601000000, 1000000);
   CHECK(machine.left() == 400e6);
-  // A neighbour does not count.
+  // A sibling has no influence.
   machine.group2("/batch/other", "1000", "max", 0, 1000);
   CHECK(machine.left() == 400e6);
 }
@@ -139,7 +139,7 @@ TEST_CASE("A container sees its own cgroup where its mount is, whatever its path
   machine.group1("/job", "200000000", 101000000, 1000000);
   machine.write("proc/self/cgroup", "4:memory:/docker/abc/job\n");
   CHECK(machine.left() == 100e6);
-  // A namespace of its own, and one seen from beside.
+  // A namespace of its own, and a namespace seen from a sibling.
   machine.write("proc/self/cgroup", "4:memory:/\n");
   CHECK(machine.left() == 400e6);
   machine.write("proc/self/cgroup", "4:memory:/../def\n");
@@ -183,7 +183,7 @@ TEST_CASE("Processes of one machine share its memory", "[memory]") {
     CHECK(memory.suffices());
   }
   SECTION("but not their own limits, each of which must hold its part") {
-    // 3 of 4 GB: as if the machine had 4/3 of what both need.
+    // 3 of 4 GB: treated as if the machine had 4/3 of what both processes need.
     NodeMemory memory =
         shortest_memory({{"c01", 3 * gb, 90 * gb, 4 * gb}, {"c01", 3 * gb, 90 * gb, 90 * gb}});
     CHECK(memory.available == 8 * gb);
@@ -203,12 +203,12 @@ TEST_CASE("Two processes that each fit are refused where both do not", "[memory]
   const auto require = [](const Communicator& ranks, double bytes) {
     require_memory({10, 20, 1, 2}, bytes, "a test", ranks);
   };
-  // Far enough from a half that other programs of the machine do not matter.
+  // Far enough from a half that other programs on the machine do not matter.
   CHECK_NOTHROW(require({}, 0.65 * available));
   std::atomic<int> refused = 0;
   testing::run_ranks(2, [&](const Communicator& ranks) {
     require(ranks, 0.2 * available);
-    // Both count, whatever each takes.
+    // Both requests are added, even if they differ.
     try {
       require(ranks, ranks.is_root() ? 1.1 * available : 0.2 * available);
     } catch (const InvalidInput& error) {
@@ -222,7 +222,8 @@ TEST_CASE("Two processes that each fit are refused where both do not", "[memory]
 }
 
 TEST_CASE("Work beyond a limit on this process is refused, and small work is not", "[memory]") {
-  // In a child, since a limit cannot be taken back where the hard one is lower; 0: all as expected.
+  // A child process sets the limit, because a lowered hard limit cannot be raised again. Exit
+  // status 0 means that all is as expected.
   const pid_t child = fork();
   if (child == 0) {
     const rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
@@ -244,7 +245,7 @@ TEST_CASE("Work beyond a limit on this process is refused, and small work is not
     const bool told = message.starts_with("points: 10 x 20 need 2 GB of memory for a test and ") &&
                       message.ends_with(" MB are available; use fewer points");
     require_memory({10, 20, 1, 2}, 60e6, "a small test");
-    // What the process took in between is a page or two.
+    // In between, the process allocates only a page or two.
     _exit(before > after && after <= 900000000 && after > 890000000 && told ? 0 : 1);
   }
   int status = 0;

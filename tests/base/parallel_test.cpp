@@ -42,8 +42,8 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
 
 TEST_CASE("Blocks of rows cover all rows in order, and 16 rows or their multiples are whole blocks",
           "[parallel]") {
-  // What ranks that hold a multiple of 16 rows rely on: whole blocks. At most 1024 of them, and the
-  // last may have fewer rows.
+  // Processes with a multiple of 16 rows rely on whole blocks. There are at most 1024 blocks, and
+  // the last may have fewer rows.
   for (const Index rows : {1, 15, 16, 17, 100, 1024, 1025, 16384, 16385, 65536, 100000}) {
     const Index size = parallel::block_rows(rows), blocks = parallel::block_count(rows);
     CHECK((16 % size == 0 || size % 16 == 0));
@@ -89,7 +89,7 @@ TEST_CASE("A report of regions holds the processor time of their slabs", "[paral
   detail::region_report = nullptr;
   parallel::set_threads(0);
   CHECK(serial >= before);
-  // Eight slabs for each thread, of two rows and 0.2 ms.
+  // Eight slabs per thread, each of two rows and 0.2 ms.
   REQUIRE(heard.size() == 24);
   for (const double part : heard) CHECK(part >= 2e-4);
 }
@@ -126,7 +126,7 @@ TEST_CASE("A parallel loop tells its progress from one thread and ends when that
     int asked = 0;
     const Progress stop = [&](const ProgressReport&) { return ++asked < 3; };
     LoopProgress stopped(stop, "loop", 1000);
-    // No thread but the caller's may have had a part before.
+    // Report first from the caller's thread: it might otherwise get no rows.
     for (int k = 0; k < 3; ++k) CHECK(stopped.advance() == (k < 2));
     parallel::for_slabs(1000, [&](Index begin, Index end) {
       for (Index i = begin; i < end && stopped.advance(); ++i) ++rows;
@@ -134,7 +134,7 @@ TEST_CASE("A parallel loop tells its progress from one thread and ends when that
     CHECK(rows == 1000);
     CHECK_THROWS_AS(stopped.finish(), Interrupted);
     CHECK(asked == 3);
-    // Silence never stops.
+    // Without a callback, the loop never stops.
     const Progress none;
     LoopProgress silent(none, "loop", 1);
     CHECK(silent.advance());
@@ -153,7 +153,8 @@ TEST_CASE("Loops end soon after their caller wants to stop, in every thread that
       parallel::for_slabs(1000, [&](Index, Index) {
         ++slabs;
         stop = true;
-        // Longer than the 20 ms between two looks: the next slab of the calling thread is the last.
+        // Longer than the 20 ms between two checks, so the next slab of the calling thread is the
+        // last.
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
       });
     };
@@ -161,7 +162,7 @@ TEST_CASE("Loops end soon after their caller wants to stop, in every thread that
       const salebra::detail::StopCheck check([&] { return stop.load(); });
       CHECK_THROWS_AS(loop(), Interrupted);
     }
-    // Each thread begins one slab or two before the calling one has looked.
+    // Each thread begins one or two slabs before the calling thread checks.
     CHECK(slabs <= 3 * threads);
     CHECK_NOTHROW(salebra::detail::stop_if_asked());
   }

@@ -43,8 +43,8 @@ TEST_CASE("Gaussian pairs follow Box and Muller's formula", "[random]") {
       worst = std::max({worst, std::abs(x - radius * std::cos(angle)) / radius,
                         std::abs(y - radius * std::sin(angle)) / radius});
     }
-  // The reference rounds its angle, up to 2π, by 4e-16; a few units in the last place of log and
-  // sine come on top.
+  // The reference rounds its angle, up to 2π, by 4e-16; log and sine add a few units in the last
+  // place.
   CHECK(worst < 3e-15);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Gaussian numbers have the moments of a standard normal distribution",
       }
     }
   }
-  // Standard deviations of the means of 1 … x⁴ are 1, √2, √15, √96 over √n. The seed is fixed, so
+  // The standard deviations of the means of x … x⁴ are 1, √2, √15, √96 over √n. The seed is fixed:
   // the limits of 4.5 deviations guard against a wrong transform, not against chance.
   CHECK(std::abs(sum / n) < 4.5 / std::sqrt(n));
   CHECK(std::abs(square / n - 1) < 4.5 * std::sqrt(2 / n));

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 
 #include "base/convolution.hpp"
 #include "conformance.hpp"
@@ -16,10 +16,10 @@ using salebra::testing::run_ranks;
 
 namespace {
 
-// Values without pattern, of which a sum depends on the order.
+// Irregular values, whose sum depends on the order.
 double scattered(Index k) { return std::sin(1e3 * static_cast<double>(k * k % 7919)) + 0.3; }
 
-// Rows of a field of any numbers.
+// Rows of a field of such values.
 template <class Real>
 std::vector<Real> rows_of(Index begin, Index end, Index ny) {
   std::vector<Real> values;
@@ -37,8 +37,9 @@ TEST_CASE("A share gives whole blocks of rows to each process, in order", "[shar
   const Index rows = GENERATE(1, 15, 16, 96, 101, 1024, 1025, 40000);
   const int ranks = GENERATE(1, 2, 3, 5, 8);
   run_ranks(ranks, [&](const Communicator& all) {
-    const RowPartition share(all, rows);
-    if (partition.rows() != rows || partition.begin_of(0) != 0 || partition.end_of(ranks - 1) != rows)
+    const RowPartition partition(all, rows);
+    if (partition.rows() != rows || partition.begin_of(0) != 0 ||
+        partition.end_of(ranks - 1) != rows)
       throw Error("rows are lost");
     const Index unit = std::max<Index>(16, parallel::block_rows(rows));
     for (int rank = 0; rank < ranks; ++rank) {
@@ -111,7 +112,8 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
       return scale / (1 + static_cast<double>(i * i) + 0.5 * static_cast<double>(j * j));
     };
   };
-  const auto convolve = [&](const RowPartition& rows, std::array<std::vector<TestType>, 2>& results) {
+  const auto convolve = [&](const RowPartition& rows,
+                            std::array<std::vector<TestType>, 2>& results) {
     Convolution2D<TestType> convolution({shape.nx, shape.ny, shape.period_x, shape.period_y},
                                         components, rows);
     convolution.set_symbol(0, 0, symbol(1));
@@ -123,7 +125,7 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
     for (auto& result : results) result.resize(field.size());
     convolution.apply(
         [&](int component, Index row, TestType* room) -> const TestType* {
-          // A row of zeros that is not given, and one that is made in the room.
+          // Empty rows are given as nullptr, all others in the buffer.
           if ((row + rows.begin()) % 5 == 0) return nullptr;
           for (Index j = 0; j < shape.ny; ++j)
             room[j] = field[static_cast<std::size_t>(row * shape.ny + j)] +
@@ -219,9 +221,9 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
     const RowPartition rows(Communicator(transport), n);
     REQUIRE(rows.count() == 64);
     Convolution2D<float> convolution({n, n, n, n}, 1, rows);
-    // Two buffers of 4 bytes for each of the cells of this process. The 32 769 columns of the
-    // half-spectrum are no multiple of 1024: a process has one of them, a thirty-second of its own,
-    // more or less, and column 0 is its own mirror image.
+    // Two buffers of 4 bytes for each cell of this process. The 32 769 columns of the half-spectrum
+    // are not a multiple of 1024: the share of a process varies by one column, a thirty-second, and
+    // column 0 is its own mirror image.
     const double bytes = 4.0 * static_cast<double>(n) * 64;
     CHECK(static_cast<double>(convolution.spectrum_bytes()) >= 2 * 0.96 * bytes);
     CHECK(static_cast<double>(convolution.spectrum_bytes()) <= 2 * 1.04 * bytes);
@@ -229,12 +231,11 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
                       [](int, Index, const float*) {});
     CHECK(transport->exchanged.calls == 2);
     CHECK(transport->exchanged.messages == 2 * (ranks - 1));
-    // 8N²/P bytes there and back.
+    // 8N²/P bytes for sending there and back.
     CHECK(transport->exchanged.sent >= 2 * bytes * (1 - 1.0 / ranks) * 0.99);
     CHECK(transport->exchanged.sent <= 2 * bytes * 1.04);
   }
-  // In double precision with the period of an isolated surface, the most that is ever sent at this
-  // size.
+  // Double precision with the period of an isolated surface sends the maximum at this size.
   const RowPartition rows(Communicator(std::make_shared<salebra::testing::OneOfMany>(0, ranks)), n);
   CHECK_NOTHROW(Convolution2D<double>({n, n, 2 * n, 2 * n}, 2, rows));
 }

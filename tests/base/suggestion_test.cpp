@@ -11,9 +11,10 @@ TEST_CASE("A misspelt name is told from the right one by its nearest neighbour",
   CHECK(nearest_name("pionts", keys) == "points");  // a swap is one edit
   CHECK(nearest_name("hursts", keys) == "hurst");   // one letter too many
   CHECK(nearest_name("short-cutoff", keys) == "short_cutoff");
-  CHECK(nearest_name("rms_hight", keys) == "rms_height");  // one too few
+  CHECK(nearest_name("rms_hight", keys) == "rms_height");  // one letter missing
   CHECK(nearest_name("seds", keys) == "seeds");
-  CHECK(nearest_name("rms", keys) == "rms_height");  // begun: the first that goes on so
+  CHECK(nearest_name("rms", keys) == "rms_height");  // a beginning: the first name that continues
+                                                     // it
 }
 
 TEST_CASE("Another word for a name comes before names that are near", "[suggestion]") {
@@ -34,7 +35,7 @@ TEST_CASE("An old name is answered with the new one, of an option as of a key", 
         "small_amplitude_work");
   CHECK(nearest_name("ellipsoid", {"cone", "elliptic-paraboloid"}) == "elliptic-paraboloid");
   CHECK(nearest_name("--predicted-finite", {"--points", "--work-by-force"}) == "--work-by-force");
-  CHECK(nearest_name("closed_form", {"points"}).empty());  // the new name is none of this place
+  CHECK(nearest_name("closed_form", {"points"}).empty());  // the new name is unknown here
 }
 
 TEST_CASE("Where no name is near, none is suggested", "[suggestion]") {
@@ -42,7 +43,7 @@ TEST_CASE("Where no name is near, none is suggested", "[suggestion]") {
   CHECK(nearest_name("temperature", keys).empty());
   CHECK(nearest_name("", keys).empty());
   CHECK(nearest_name("pt", keys).empty());
-  CHECK(nearest_name("hurst", {"hurst"}).empty());  // it is not misspelt
+  CHECK(nearest_name("hurst", {"hurst"}).empty());  // correctly spelt
   CHECK(nearest_name("hurst", {}).empty());
   CHECK(did_you_mean("temperature", keys).empty());
   CHECK(did_you_mean("hirst", keys) == " (did you mean hurst?)");

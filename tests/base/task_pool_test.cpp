@@ -28,7 +28,7 @@ struct Threads {
   ~Threads() { parallel::set_threads(0); }
 };
 
-/// Waits for what another thread should do; ten minutes are for ever.
+/// Waits for another thread; ten minutes count as never.
 template <class Condition>
 bool comes_true(const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + 10min;
@@ -47,8 +47,8 @@ double sum_of(Index rows) {
   });
 }
 
-/// A study in small: surfaces, each with some loads of unlike length, and sums over rows before,
-/// within and after them.
+/// A small study: surfaces with loads of different duration, and sums over rows before, within and
+/// after them.
 std::vector<double> nested(int surfaces, int loads) {
   std::vector<double> results(std::size_t(surfaces), 0.0);
   TaskLoop outer({});
@@ -86,7 +86,7 @@ TEST_CASE("A thousand tiny tasks are each done once and begin in their order", "
     constexpr int count = 1000;
     std::vector<std::atomic<int>> times(count);
     std::atomic<int> side_by_side = 0, most = 0;
-    Index last = -1, late = 0;  // of the only thread
+    Index last = -1, late = 0;  // for a single thread
     TaskLoop loop({});
     loop.run(count, [&](Index k) {
       if (threads == 1 && k != ++last) ++late;
@@ -131,7 +131,7 @@ TEST_CASE("A failed task ends its loop, and its failure is thrown by the call", 
                                [&](Index k) {
                                  ++begun;
                                  if (k == 3) throw NotConverged("task 3");
-                                 // The others go on until they hear of it.
+                                 // The other tasks go on until they hear of the failure.
                                  if (k > 3) comes_true([&] { return !loop.going_on(); });
                                }),
                       "task 3");
@@ -202,11 +202,12 @@ TEST_CASE("What talk throws ends the loop and is thrown by the call", "[task_poo
 TEST_CASE("A caller is heard while its own tasks are done and while it helps in those of others",
           "[task_pool]") {
   const Threads chosen(2);
-  // The caller's task is short. The other's has an inner loop whose tasks end when the outer loop
-  // was stopped: by the caller, which waits or is in one of them.
+  // The caller's task is short. The other task has an inner loop whose tasks end once the caller,
+  // which waits or helps in one of them, has stopped the outer loop.
   std::atomic<bool> other_begun = false;
   std::atomic<int> calls = 0;
-  TaskLoop outer({.at_once = 0, .communicator = {}, .talk = [&] { return !other_begun || ++calls < 10; }});
+  TaskLoop outer(
+      {.at_once = 0, .communicator = {}, .talk = [&] { return !other_begun || ++calls < 10; }});
   outer.run(2, [&](Index s) {
     if (s == 0) return void(comes_true([&] { return other_begun.load(); }));
     TaskLoop inner({.at_once = 0, .communicator = {}, .talk = [&] { return outer.going_on(); }});
@@ -223,7 +224,7 @@ TEST_CASE("Threads without a task take those of a giant one, and its slabs", "[t
   const Threads chosen(3);
   std::set<std::thread::id> of_tasks;
   std::mutex guard;
-  // Each thread waits in its task until all are in one.
+  // Each thread waits in its task until all threads are in one.
   const auto all_are_here = [&] {
     const std::scoped_lock lock(guard);
     of_tasks.insert(std::this_thread::get_id());
@@ -233,12 +234,12 @@ TEST_CASE("Threads without a task take those of a giant one, and its slabs", "[t
   std::atomic<int> alone = 0;
   TaskLoop outer({});
   outer.run(2, [&](Index s) {
-    if (s == 0) return;  // and one giant
+    if (s == 0) return;  // the other task is giant
     TaskLoop inner({});
     inner.run(3, [&](Index) {
       if (!comes_true(all_are_here)) ++alone;
     });
-    // They are free again when they have gone to sleep, which nothing but time shows.
+    // The threads are free again once they sleep, which can only be found by waiting.
     const auto self = std::this_thread::get_id();
     comes_true([&] {
       parallel::for_slabs(64, [&](Index, Index) {
@@ -275,8 +276,9 @@ TEST_CASE("Processes of a loop stop together, before the same task", "[task_pool
   std::atomic<int> as_wanted = 0;
   run_ranks(3, [&](const Communicator& ranks) {
     int done = 0;
-    TaskLoop loop(
-        {.at_once = 0, .communicator = ranks, .talk = [&] { return ranks.rank() != 1 || done < 2; }});
+    TaskLoop loop({.at_once = 0, .communicator = ranks, .talk = [&] {
+                     return ranks.rank() != 1 || done < 2;
+                   }});
     loop.run(10, [&](Index) { ++done; });
     as_wanted += done == 2 && loop.stopped();
   });

@@ -47,7 +47,7 @@ TEST_CASE("Quantities are read with and without units", "[units]") {
       {"1.5h", Dimension::time, 5400},
   }));
   INFO(text);
-  // A parsed decimal and a power of ten: two roundings.
+  // A parsed decimal and a power of ten cause two roundings.
   CHECK(parse_quantity(text, dimension, "--x") == Approx(value).epsilon(4e-16).margin(0));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("Units are read by their names, plurals and in the letters that progra
   for (const auto& [dimension, value, units] : cases)
     for (const std::string unit : units) {
       INFO(unit);
-      // A factor, a power of ten and their product: three roundings.
+      // A factor, a power of ten and their product cause three roundings.
       CHECK(parse_quantity("1 " + unit, dimension, "--x") ==
             Approx(value).epsilon(7e-16).margin(0));
     }
@@ -128,10 +128,9 @@ TEST_CASE("A unit that may mean two things, or something else, is refused by nam
                                                                 {Dimension::time, "S"},
                                                                 {Dimension::wavenumber, "1/m"}}) {
     INFO(unit);
-    CHECK_THROWS_WITH(
-        parse_quantity("2 " + unit, dimension, "--x"),
-        Catch::StartsWith("--x: '2 " + unit + "' has a unit that is not understood") &&
-            Catch::Contains("'" + unit + "'"));
+    CHECK_THROWS_WITH(parse_quantity("2 " + unit, dimension, "--x"),
+                      Catch::StartsWith("--x: '2 " + unit + "' has a unit that is not known") &&
+                          Catch::Contains("'" + unit + "'"));
   }
 }
 
@@ -204,7 +203,7 @@ TEST_CASE("A list has units at all of its numbers or at none", "[units]") {
            {"1MPa:100:5", "write 1MPa:100MPa:5", ""}}) {
     INFO(text);
     CHECK_THROWS_WITH(parse_values(text, Dimension::pressure, "--pressure"),
-                      Catch::StartsWith("--pressure: '" + std::string(text) + "' has a unit at") &&
+                      Catch::StartsWith("--pressure: '" + std::string(text) + "' has a unit on") &&
                           Catch::Contains(with) && Catch::Contains(without));
   }
   CHECK_THROWS_WITH(parse_values("1,2%", Dimension::dimensionless, "--x"),
@@ -236,14 +235,14 @@ TEST_CASE("A formatted quantity reads back to the digits shown, for random numbe
                                       Dimension::angle, Dimension::dimensionless}) {
       const std::string text = format_quantity(number, dimension);
       INFO(text);
-      // Four digits: half a unit of the fourth, at worst 5e-4 relative.
+      // Four digits: half a unit of the fourth is at most 5e-4 relative.
       CHECK(parse_quantity(text, dimension, "--x") == Approx(number).epsilon(5.1e-4).margin(0));
     }
   }
   CHECK(format_quantity(1.2344e-6, Dimension::length) == "1.234 \u00b5m");
   CHECK(format_quantity(9.99996e-7, Dimension::length) == "1 \u00b5m");
-  // The prefix belongs to the number of four digits, which rounds up here, and not to one of five,
-  // which does not.
+  // The prefix follows from the number rounded to four digits, which rounds up here; rounded to
+  // five digits it would not.
   CHECK(format_quantity(9.9996e-7, Dimension::length) == "1 \u00b5m");
   CHECK(format_quantity(std::nan(""), Dimension::length) == "n/a");
   CHECK(format_quantity(1.25e15, Dimension::stiffness_per_area) == "1.25 GPa/\u00b5m");

@@ -37,7 +37,7 @@ struct Tried {
     reading.memory = std::uint64_t{64} << 20;
     reading.seconds = 1;
     reading.read = std::move(work);
-    reading.place = [this](std::size_t count) {
+    reading.location = [this](std::size_t count) {
       if (count > 1 << 20) throw InvalidInput("a.h5", "hands over too much");
       text.resize(text.size() + count);
       return std::as_writable_bytes(std::span(text)).last(count);

@@ -35,7 +35,7 @@ TEST_CASE("A sweep is the curve of its single contacts, whatever the number of l
           Approx(material.modulus_ratio() * sample.normal_stiffness));
     if (k > 0) CHECK(sample.mean_gap < curve.samples[k - 1].mean_gap);
   }
-  // dF = −K dū: the trapezoidal rule over one short step.
+  // dF = −K dū by the trapezoidal rule over one short step.
   const std::vector<double> close{5e6, 5.05e6};
   const ForceCurve step = sweep_pressures(surface, material, close, options);
   const double mean_stiffness =

@@ -18,10 +18,10 @@ constexpr double contact_modulus = 3e9;
 const Grid2D coarsest{32, 32, 1e-3, 1e-3};
 
 template <class Shape>
-ContactSetsOnGrid free_levels(const Shape& shape) {
+ContactSetsOnGrid free_contact_sets(const Shape& shape) {
   return [=](const Grid2D& grid) {
     return boundary_element_contact_sets(shape(grid), contact_modulus,
-                                   {.tolerance = 1e-9, .boundary = Boundary::free});
+                                         {.tolerance = 1e-9, .boundary = Boundary::free});
   };
 }
 
@@ -33,7 +33,7 @@ AdaptiveQuadratureOptions to_error(double relative_error) {
   return options;
 }
 
-// The trapezoidal rule over a period: exact to round-off.
+// The trapezoidal rule over a period, exact to round-off.
 template <class F>
 double around(F integrand) {
   double sum = 0;
@@ -41,7 +41,7 @@ double around(F integrand) {
   return sum;
 }
 
-// Hertz' contact of x²/(2R_x) + y²/(2R_y) with R_x > R_y: b/a of its ellipses, and C of F = C
+// Hertz' contact of x²/(2R_x) + y²/(2R_y) with R_x > R_y: b/a of its ellipses, and C in F = C
 // δ^(3/2).
 struct HertzEllipse {
   double axes = 0, coefficient = 0;
@@ -61,8 +61,8 @@ struct HertzEllipse {
     }
     const double e = low, k = std::comp_ellint_1(e), ee = std::comp_ellint_2(e);
     axes = std::sqrt(1 - e * e);
-    // p0/E* = s at b = 1, a = 1/axes; δ = s·𝐊 there, curvature_x = s e⁻² axes² (𝐊 − 𝐄); all scale
-    // by b: δ/b², with R fixed.
+    // p0/E* = s at b = 1, a = 1/axes; δ = s·𝐊 there, curvature_x = s e⁻² axes² (𝐊 − 𝐄). With fixed
+    // R everything scales with b, for example δ/b².
     const double shape = axes * axes * (k - ee) / (e * e);
     const double slope_per_b = curvature_x / shape;                                   // p0/(E* b)
     const double depth_per_b2 = slope_per_b * k;                                      // δ/b²
@@ -84,12 +84,13 @@ TEST_CASE("A requested error is reached and holds against the exact loss of roun
   const double amplitude = cone ? 7.5e-6 * pi / 2 : 0.1e-6;
   const PowerLaw cone_law(2 * contact_modulus / (pi * 0.1), 2, ratio);
   const PowerLaw sphere_law(4.0 / 3 * contact_modulus * std::sqrt(0.3), 1.5, ratio);
-  const ContactSetsOnGrid intervals = cone ? free_levels([](const Grid2D& grid) {
-    return cone_surface(grid, std::atan(0.1), off_grid_center(grid));
-  })
-                                   : free_levels([](const Grid2D& grid) {
-                                       return paraboloid_surface(grid, 0.3, off_grid_center(grid));
-                                     });
+  const ContactSetsOnGrid intervals =
+      cone ? free_contact_sets([](const Grid2D& grid) {
+        return cone_surface(grid, std::atan(0.1), off_grid_center(grid));
+      })
+           : free_contact_sets([](const Grid2D& grid) {
+               return paraboloid_surface(grid, 0.3, off_grid_center(grid));
+             });
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}),
                                     Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
     const AdaptiveQuadratureResult result =
@@ -113,13 +114,13 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
   const double radius_x = 0.4, radius_y = 0.08;
   const HertzEllipse hertz(radius_x, radius_y);
   const double direction = GENERATE(0.0, pi / 2);
-  // K_t and K of an ellipse with the punch's traction, which stick on an ellipse has too: semi-axes
-  // 1, axes; motion along a or b.
+  // K_t and K of an ellipse with the traction of the punch, which full stick on an ellipse has too;
+  // semi-axes 1 and `axes`, motion along a or b.
   const auto size = [&](double c, double s) { return std::hypot(c, hertz.axes * s); };
   const double normal = around([&](double c, double s) { return (1 - poisson) / size(s, c); });
   const double tangential = around([&](double c, double s) {
     const double along = direction == 0 ? c : s;
-    // The kernel's angle is that of the ray, (1 − ν + ν cos²) = 1 − ν sin².
+    // The angle of the kernel is that of the ray: (1 − ν + ν cos²) = 1 − ν sin².
     return (1 - poisson * (1 - along * along)) / size(s, c);
   });
   const double expected = normal / tangential / material.modulus_ratio();
@@ -128,7 +129,7 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
   options.quadrature.direction = direction;
   const Oscillation motion = EqualFrequency{0.08e-6, 2e-7, pi / 2};
   const AdaptiveQuadratureResult result = adaptive_interval_quadrature(
-      free_levels([&](const Grid2D& grid) {
+      free_contact_sets([&](const Grid2D& grid) {
         return elliptic_paraboloid_surface(grid, radius_x, radius_y, off_grid_center(grid));
       }),
       coarsest, material, motion, 0.25e-6, options);
@@ -142,19 +143,20 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
 
 TEST_CASE("An error that cannot be reached is not called reached", "[levels]") {
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const ContactSetsOnGrid intervals = free_levels(
+  const ContactSetsOnGrid intervals = free_contact_sets(
       [](const Grid2D& grid) { return paraboloid_surface(grid, 0.3, off_grid_center(grid)); });
   const Oscillation motion = EqualFrequency{0.1e-6, 2e-7, pi / 2};
   AdaptiveQuadratureOptions options = to_error(1e-7);
   options.max_points = 32;
   options.max_intervals = 16;
-  const AdaptiveQuadratureResult result =
-      adaptive_interval_quadrature(intervals(coarsest), coarsest, material, motion, 0.3e-6, options);
+  const AdaptiveQuadratureResult result = adaptive_interval_quadrature(
+      intervals(coarsest), coarsest, material, motion, 0.3e-6, options);
   CHECK_FALSE(result.reached);
   CHECK(result.grid.nx == 32);
   CHECK(result.intervals == 16);
   CHECK(result.trials.size() == 2);
   options.relative_error = 0;
-  CHECK_THROWS_WITH(adaptive_interval_quadrature(intervals, coarsest, material, motion, 0.3e-6, options),
-                    Catch::StartsWith("relative_error: 0"));
+  CHECK_THROWS_WITH(
+      adaptive_interval_quadrature(intervals, coarsest, material, motion, 0.3e-6, options),
+      Catch::StartsWith("relative_error: 0"));
 }

@@ -35,7 +35,7 @@ Oscillation with_amplitude(Oscillation motion, double amplitude) {
 
 TEST_CASE("Springs of all summits lose what the force law of all summits loses, at any amplitude",
           "[asperities]") {
-  // The two routes share nothing: released springs of each summit here, K_t(δ) by parts there.
+  // The two methods share nothing: released springs of each summit here, K_t(δ) by parts there.
   const std::vector<Summit> summits = elliptical_summits(60);
   const auto model =
       std::make_shared<DeterministicSummits>(summits, soft, 1, 0, 1, SummitShape::elliptical);
@@ -70,9 +70,9 @@ TEST_CASE("At small amplitude the summits lose Eqs (12), (15) with the F'' of al
       REQUIRE(damping.min_contacts == damping.max_contacts);
       return damping.work_per_cycle / damping.small_amplitude_work - 1;
     };
-    // The correction is of first order in u_z in case (b) and of second order in case (a): the
-    // limit is Eqs (12), (15). u_z must be small beside the indentation of the summit that touches
-    // least.
+    // The correction is of first order in u_z in case (b) and of second order in case (a); the
+    // limit is Eqs (12), (15). u_z must be small against the indentation of the summit with the
+    // smallest one.
     const double coarse = miss(2e-8), fine = miss(1e-8);
     const int order = std::holds_alternative<Drag>(kind) ? 1 : 2;
     CHECK(std::abs(fine - (coarse - fine) / (std::pow(2, order) - 1)) < 1e-9);

@@ -10,9 +10,9 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 
 using namespace salebra;
 using std::numbers::pi;
@@ -28,15 +28,15 @@ ForceCurve exponential_curve(double length) {
     sample.indentation = length * (i - 40) / 5;
     sample.force = std::exp(sample.indentation / length);
     sample.normal_stiffness = sample.force / length;
-    // A K_t of its own, 10 % above (G*/E*)K.
+    // Its own K_t, 10 % above (G*/E*)K.
     sample.tangential_stiffness = 1.1 * ratio * sample.normal_stiffness;
     curve.samples.push_back(sample);
   }
   return curve;
 }
 
-/// X there and back in `cycles` normal cycles each way, with turning points `offset` steps after
-/// the least indentation.
+/// A path over X and back, `cycles` normal cycles in each direction, with turning points `offset`
+/// steps after the smallest indentation.
 SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, int offset) {
   SampledMotion path;
   for (int i = 0; i <= 2 * cycles * steps; ++i) {
@@ -50,7 +50,7 @@ SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, i
   return path;
 }
 
-/// Losses of a normal cycle, means over sixteen phases of the turning points.
+/// Losses of a normal cycle, averaged over sixteen phases of the turning points.
 struct TurningLoss {
   double stick = 0, work = 0, slip_work = 0;
 };
@@ -73,7 +73,8 @@ TurningLoss loss_of_turning(const ContactLaw& law, const Drag& drag, double mean
 
 }  // namespace
 
-TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less", "[assumptions]") {
+TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less",
+          "[assumptions]") {
   const double mean = 1e-6;
   const PowerLaw cone(1e9, 2, ratio), paraboloid(1e7, 1.5, ratio);
   const ExponentialLaw exponential(1, 1e-7, ratio);
@@ -98,7 +99,7 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
     const Assumptions assumptions =
         assumptions_of(*one.law, one.mean, one.motion, {.friction_coefficient = one.friction});
     const Assumption& opening = assumptions.slip_of_opening_springs;
-    // Friction that puts the same motion at the limit's M.
+    // With this friction the same motion has the M of the limit.
     const auto change_at = [&](double limit) {
       const double friction = one.friction * limit / opening.value;
       const SampledMotion path = sample(one.motion, one.mean, 2000);
@@ -110,21 +111,22 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
               stick -
           1);
     };
-    // 2 % of the limit, over which the change goes like 1/M or 1/M².
+    // 2 % around the limit, where the change is proportional to 1/M or 1/M².
     CHECK(change_at(0.98 * opening.limit_5_percent) > 0.05);
     CHECK(change_at(1.02 * opening.limit_5_percent) < 0.05);
     CHECK(change_at(0.98 * opening.limit_20_percent) > 0.2);
     CHECK(change_at(1.02 * opening.limit_20_percent) < 0.2);
     CHECK(opening.limit_5_percent > opening.limit_20_percent);
   }
-  // The path of a slide that goes on would leave the table; its K_t is proportional to that of the
-  // law.
+  // The path of a slide in one direction would leave the table; its K_t is proportional to that of
+  // the law.
   for (const Oscillation& motion :
        {Oscillation(Drag{1e-7, 1e-3, 1e5}), Oscillation(equal(3e-8, 1))}) {
     const ContactParameters parameters{.friction_coefficient = 0.5};
-    // Cubics through 5 samples in each l.
+    // The table has cubics through 5 samples in each l.
     CHECK(assumptions_of(table, 0, motion, parameters).slip_of_opening_springs.limit_5_percent ==
-          Approx(assumptions_of(exponential, 0, motion, parameters).slip_of_opening_springs.limit_5_percent)
+          Approx(assumptions_of(exponential, 0, motion, parameters)
+                     .slip_of_opening_springs.limit_5_percent)
               .epsilon(1e-3));
   }
 }
@@ -140,7 +142,7 @@ TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", 
     const Assumptions one = limits(1, 0.8, 0.3, drag), larger = limits(5, 0.8, 0.3, drag);
     const double more = 2 * (0.6 / 0.3) * (0.8 / 0.7) / 2;  // of μ/g
     const Assumptions rougher = limits(1, 0.7, 0.6, drag * more);
-    // Bisected to 1e-6.
+    // The limits are bisected to 1e-6.
     CHECK(larger.slip_of_opening_springs.limit_5_percent ==
           Approx(one.slip_of_opening_springs.limit_5_percent).epsilon(1e-4));
     CHECK(larger.slip_of_closed_springs.limit_5_percent ==
@@ -159,14 +161,14 @@ TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed",
   const double mean = 1e-6, amplitude = 3e-7, stretch = 0.3 / law.modulus_ratio();
   // |x| <= (μ/g)(δ0 + u_z sin ωt) with x = u_x cos ωt at 90°: u_x = (μ/g)√(δ0² − u_z²).
   const Assumptions equal = assumptions_of(law, mean, EqualFrequency{amplitude, 1e-8, pi / 2},
-                                     {.friction_coefficient = 0.3});
+                                           {.friction_coefficient = 0.3});
   const double onset = stretch * std::sqrt(mean * mean - amplitude * amplitude);
   CHECK(equal.slip_of_closed_springs.limit_5_percent == Approx(onset).epsilon(1e-3));
   CHECK(equal.slip_of_closed_springs.verdict == Verdict::holds);
-  // Both turning points at the limit: X = 2(μ/g)δ_min.
+  // With both turning points at the limit: X = 2(μ/g)δ_min.
   const Assumptions drag =
       assumptions_of(law, mean, Drag{amplitude, 1e-6, 1e5},
-                  {.friction_coefficient = 0.3, .excursion = 3 * stretch * (mean - amplitude)});
+                     {.friction_coefficient = 0.3, .excursion = 3 * stretch * (mean - amplitude)});
   CHECK(drag.slip_of_closed_springs.limit_5_percent ==
         Approx(2 * stretch * (mean - amplitude)).epsilon(1e-2));
   CHECK(drag.slip_of_closed_springs.verdict == Verdict::broken);
@@ -184,19 +186,21 @@ TEST_CASE("A table of constant stiffness has no levels but the noise of its last
   const TabulatedLaw law(punch, ratio);
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{5e-8, 1e-9, 1}), Oscillation(Drag{5e-8, 1e-9, 1})}) {
-    const Assumptions assumptions = assumptions_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
+    const Assumptions assumptions =
+        assumptions_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
     CHECK(assumptions.amplitude.verdict == Verdict::holds);
     CHECK(assumptions.slip_of_opening_springs.verdict != Verdict::unknown);
   }
 }
 
-TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels", "[assumptions]") {
+TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels",
+          "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const double friction = 0.3;
   for (const int cycles : {3, 10, 40}) {
     CAPTURE(cycles);
     Drag drag{2e-8, 0, 1e5};
-    // Slow enough for an excursion of that many cycles to be near the limit.
+    // Slow enough for the limit to be near an excursion of that many cycles.
     const double number = 1.5 * std::pow(cycles / 0.238, 2);
     drag.drag_velocity = friction / ratio * drag.normal_amplitude * drag.angular_frequency / number;
     const TurningLoss simulated = loss_of_turning(law, drag, 0, cycles, friction);
@@ -204,15 +208,16 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     const Loss loss = loss_with_slip(law, 0, drag, friction, excursion);
     INFO(loss.slip_work / simulated.slip_work - 1 << ' '
                                                   << loss.work_per_cycle / simulated.work - 1);
-    // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
+    // Exact to first order in a normal cycle over the excursion; 360 steps miss 1e-3.
     CHECK(loss.slip_work == Approx(simulated.slip_work).epsilon(0.1 / (cycles * cycles) + 3e-3));
     CHECK(loss.work_per_cycle == Approx(simulated.work).epsilon(0.1 / (cycles * cycles) + 3e-3));
     const Assumptions assumptions =
         assumptions_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
-    // The share goes like X².
+    // The slip share is proportional to X².
     const double steady = relaxation_damping(law, at_indentation(0), drag).work_per_cycle;
     const double expected = excursion * std::sqrt(0.05 * steady / simulated.slip_work);
-    CHECK(assumptions.slip_of_closed_springs.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
+    CHECK(assumptions.slip_of_closed_springs.limit_5_percent ==
+          Approx(expected).epsilon(1.0 / cycles));
   }
   // The example of many introductions: 1 mm/s, 1 nm, 20 kHz, l = 30 nm.
   const ExponentialLaw rough(1, 3e-8, ratio);
@@ -224,7 +229,8 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
   CHECK(fast.largest.front().excursion == 0);
 }
 
-TEST_CASE("The turning points of a slow motion cost what the simulated path misses", "[assumptions]") {
+TEST_CASE("The turning points of a slow motion cost what the simulated path misses",
+          "[assumptions]") {
   const double mean = 1e-6;
   const ExponentialLaw shallow(1, 1e-7, ratio), deep(1, 3e-8, ratio);
   const PowerLaw opened(1e7, 1.5, ratio), cone(1e9, 2, ratio);
@@ -249,14 +255,14 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
                                                         (2 * phase + 1) * steps / (2 * phases)))
                     .work_per_cycle /
                 phases;
-      // The straight steps lose up to 1e-3 of the whole; a mean over 16 phases is that of all to
-      // 1e-3 of the turning point's cost.
+      // Straight steps miss up to 1e-3 of the whole; a mean over 16 phases is the mean over all to
+      // 1e-3 of the cost of a turning point.
       CHECK(1 - loss / (2 * cycles * steady) ==
             Approx(0.05 * slow.limit_5_percent / cycles).margin(1e-3));
       CHECK(slow.limit_20_percent == Approx(std::max(1.0, slow.limit_5_percent / 4)));
     }
   }
-  // Constant K_t', to the midpoint rule's second order.
+  // Constant K_t', with the midpoint rule of second order.
   const double exact = 2.0 / 3 * (pi * pi - 6) / (pi * pi - 4);
   const auto judged = [&](double cycles) {
     const Drag drag{1e-7, 1e-6, 1e5};
@@ -266,25 +272,25 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
   CHECK(judged(9).verdict == Verdict::holds);
   CHECK(judged(8).verdict == Verdict::doubtful);
   CHECK(judged(2).verdict == Verdict::broken);
-  // A contact that touches for a moment loses little at a turning point, and still no way below w
+  // A contact that touches for a moment loses little at a turning point, but no excursion below w
   // is slow.
   const PowerLaw tip(1e7, 1.5, ratio);
   const ContactParameters half{.excursion = 0.99 * 2 * pi * 1e-11};
   const Assumption brief = assumptions_of(tip, -9.9e-7, Drag{1e-6, 1e-6, 1e5}, half).slow_motion;
   CHECK(brief.limit_20_percent == 1);
   CHECK(brief.verdict == Verdict::broken);
-  // Two frequencies and case (a) follow the motion itself.
+  // Two frequencies and case (a) follow the motion itself, so nothing has to be slow.
   CHECK(assumptions_of(cone, mean, EqualFrequency{1e-7, 1e-9, 1}, half).slow_motion.verdict ==
         Verdict::holds);
   const Drag drag{1e-7, 1e-6, 1e5};
   CHECK(assumptions_of(cone, mean, drag).slow_motion.needs == "excursion");
-  CHECK(assumptions_of(cone, mean, Drag{1e-7, ContactParameters::unknown, 1e5}, half).slow_motion.needs ==
-        "drag_velocity");
+  CHECK(assumptions_of(cone, mean, Drag{1e-7, ContactParameters::unknown, 1e5}, half)
+            .slow_motion.needs == "drag_velocity");
 }
 
 TEST_CASE("A sine is slow where a triangle is", "[assumptions]") {
-  // Excursion 2u_x, v² the mean square of the velocity: X/w = √2 ω_z/(π ω_x). The triangle asks for
-  // more, so that a sine within the limits is off by less.
+  // Excursion 2u_x, v² the mean square velocity: X/w = √2 ω_z/(π ω_x). A triangle needs more
+  // cycles, so a sine within its limits is off by less.
   for (const auto& [change, limit] : {std::pair{0.05, 8.79}, std::pair{0.2, 2.198}}) {
     const double r = std::sqrt(2) / (pi * limit);
     CHECK((pi * pi - 4) * r * r / closed_form::frequency_ratio_integral(r) - 1 < change);
@@ -298,7 +304,7 @@ TEST_CASE("The loss with slip is that of the simulated path", "[assumptions]") {
     const TrajectoryDamping path =
         trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction_coefficient = 0.3});
     const Loss loss = loss_with_slip(law, 1e-6, motion, 0.3);
-    // 360 steps in place of 2000, of second order.
+    // 360 steps instead of 2000, at second order.
     CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
     CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
     CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
@@ -312,7 +318,7 @@ TEST_CASE("The limit of amplitude is where the closed forms of the exponential l
   const double length = 1e-7;
   const ExponentialLaw law(1, length, ratio);
   const Assumptions drag = assumptions_of(law, 0, Drag{1e-9, 1, 1e5}),
-                 equal = assumptions_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
+                    equal = assumptions_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
   const auto off = [&](const Oscillation& motion) {
     const DampingResult result = relaxation_damping(law, at_indentation(0), motion);
     return std::abs(result.small_amplitude_work / result.work_per_cycle - 1);
@@ -324,12 +330,13 @@ TEST_CASE("The limit of amplitude is where the closed forms of the exponential l
         Approx(0.05).epsilon(1e-3));
   CHECK(equal.amplitude.limit_5_percent == Approx(0.72 * length).epsilon(0.02));
   CHECK(drag.amplitude.verdict == Verdict::holds);
-  // F'' of a cone is constant: only a contact that opens changes it.
+  // F'' of a cone is constant, so only a contact that opens changes it.
   const PowerLaw cone(1e9, 2, ratio);
   CHECK(assumptions_of(cone, 1e-6, Drag{1e-7, 1, 1e5}).amplitude.limit_5_percent > 1e-6);
 }
 
-TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be", "[assumptions]") {
+TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be",
+          "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
   const Assumptions bare = assumptions_of(law, 0, motion);
@@ -339,7 +346,7 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   CHECK(bare.inertia.needs == "density");
   REQUIRE(bare.largest.size() == 3);
   CHECK(bare.largest[2].drag_velocity == Approx(10 * bare.largest[0].drag_velocity));
-  // v at the limit has M there.
+  // v at the limit has the M of the limit.
   ContactParameters parameters{.friction_coefficient = 0.3};
   Drag slow = motion;
   slow.drag_velocity = bare.largest[1].drag_velocity;
@@ -350,11 +357,11 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   CHECK(assumptions_of(law, 0, slow, parameters).slip_of_opening_springs.needs == "drag_velocity");
 
   parameters = {.hardness = 1e9,
-           .density = 8000,
-           .contact_modulus = 1e11,
-           .loaded_size = 1e-3,
-           .nominal_pressure = 1e8,
-           .mean_contact_pressure = 5e8};
+                .density = 8000,
+                .contact_modulus = 1e11,
+                .loaded_size = 1e-3,
+                .nominal_pressure = 1e8,
+                .mean_contact_pressure = 5e8};
   const Assumptions known = assumptions_of(law, 0, motion, parameters);
   CHECK(known.plasticity.value == Approx(0.75));
   CHECK(known.plasticity.verdict == Verdict::doubtful);
@@ -362,7 +369,7 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   CHECK(std::isnan(known.plasticity.limit_5_percent));
   // ν = 1/3, G = G*(2 − ν)/4 = 33.3 GPa, c_s = 2041 m/s.
   CHECK(known.inertia.value == Approx(1e5 * 1e-3 / 2041).epsilon(1e-3));
-  // What coupling changes of a slow motion is not known. ν = 0 has G* = E*; there it is largest.
+  // The effect of coupling on a slow motion is unknown. ν = 0 has G* = E*, where it is largest.
   CHECK(known.coupling.verdict == Verdict::unknown);
   const EqualFrequency equal{.normal_amplitude = 1e-9,
                              .tangential_amplitude = 1e-9,
@@ -373,7 +380,7 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   };
   CHECK(coupling(ExponentialLaw(1, 1e-7, 1), 0).verdict == Verdict::doubtful);
   CHECK(coupling(ExponentialLaw(1, 1e-7, 2.0 / 3), 0).value == Approx(0).margin(1e-12));
-  // Simulated: a paraboloid at 45° by 12 % at ν = 0.3, rough surfaces by no more than 4 %.
+  // Simulated: 12 % for a paraboloid at 45° and ν = 0.3, at most 4 % for rough surfaces.
   CHECK(
       coupling(IndenterLaw(paraboloid_profile(1e-2), Material::of_contact_modulus(1e9, 0.3)), 1e-6)
           .value == Approx(0.12).epsilon(0.02));
@@ -389,8 +396,9 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
                   InvalidInput);
 }
 
-TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal", "[assumptions]") {
-  // Each of these took for ever, or all memory, where tables and searches had no last step.
+TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal",
+          "[assumptions]") {
+  // Each of these took for ever, or all memory, when tables and searches had no last step.
   for (const double length : {1e308, 1e290, 1e-7, 1e-300})
     for (const double amplitude : {5e-324, 1e-9, 1e300})
       for (const double velocity : {1e-6, 1e300, 5e-324}) {
@@ -408,22 +416,22 @@ TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal
           }
         }
       }
-  // Stiffness that is no number: neither is its table.
+  // If the stiffness overflows, so does its table.
   CHECK_THROWS_WITH(TangentialContact(ExponentialLaw(1, 1e-3, ratio), 0, 1, {}),
-                    Catch::Contains("beyond all measure"));
+                    Catch::Contains("overflow"));
 }
 
 TEST_CASE("After a first loading the plasticity is the load over the first load", "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
-  // Pressures of the residual surface reach the hardness where the first loading did, and no
-  // further.
+  // Pressures of the residual surface reach the hardness where the first loading did, and nowhere
+  // else.
   ContactParameters parameters{.hardness = 1e9, .mean_contact_pressure = 9e8, .rms_slope = 1};
   parameters.contact_modulus = 1e11;
   CHECK(assumptions_of(law, 0, motion, parameters).plasticity.verdict == Verdict::broken);
   parameters.first_load = 1.25;
   const Assumption below = assumptions_of(law, 0, motion, parameters).plasticity;
-  // That at the peak, F exp(u_z/l).
+  // The value at the peak, F exp(u_z/l).
   CHECK(below.value == Approx(0.8 * std::exp(0.01)));
   CHECK(below.verdict == Verdict::holds);
   parameters.first_load = 1;
@@ -451,7 +459,7 @@ TEST_CASE("A sampled path has the assumptions of the motion that it samples", "[
     for (auto* column : {&path.time, &path.indentation, &path.displacement})
       column->erase(column->begin(), column->begin() + 100);
     const Assumptions whole = assumptions_of(law, 1e-6, motion, parameters),
-                   sampled = assumptions_of(law, path, parameters);
+                      sampled = assumptions_of(law, path, parameters);
     CHECK(sampled.slip_of_opening_springs.value ==
           Approx(whole.slip_of_opening_springs.value).epsilon(1e-3));
     CHECK(sampled.slip_of_opening_springs.limit_5_percent ==
@@ -483,7 +491,7 @@ TEST_CASE("Sliding begins at Cattaneo's and Mindlin's excursion, and at that of 
   const auto border = [&](const ContactLaw& law, double mean) {
     return regime_map(law, mean, normal, {1e-9}, {1e-9}, friction).sliding_excursion;
   };
-  // T = μ[F(δ) − F(δ − gx/μ)] has 95 % of μF at x = X/2; bisected to round-off.
+  // T = μ[F(δ) − F(δ − gx/μ)] reaches 95 % of μF at x = X/2; bisected to round-off.
   const double least = 1e-6 - normal.normal_amplitude;
   CHECK(border(paraboloid, 1e-6) ==
         Approx(2 * stretch * least * (1 - std::pow(0.05, 2.0 / 3))).epsilon(1e-12));
@@ -495,7 +503,7 @@ TEST_CASE("Sliding begins at Cattaneo's and Mindlin's excursion, and at that of 
         Approx(2 * stretch * least * (1 - std::sqrt(0.05))).epsilon(1e-12));
   const ExponentialLaw exponential(1, 1e-7, ratio);
   CHECK(border(exponential, 0) == Approx(2 * stretch * 1e-7 * std::log(20)).epsilon(1e-12));
-  // Its table ends four l below; an exponential continues it. Its K_t is 1.1 times as large.
+  // The table ends four l below and continues as an exponential. Its K_t is 1.1 times as large.
   CHECK(border(TabulatedLaw(exponential_curve(1e-7), ratio), 0) ==
         Approx(border(exponential, 0) / 1.1).epsilon(1e-3));
   CHECK(std::isnan(
@@ -511,8 +519,8 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   CHECK(own.stiffness_ratio(-1e-5) == Approx(1.1 * ratio).epsilon(1e-12));  // beyond its end
   CHECK(like.stiffness_ratio(0) == 1.1 * ratio);
   const double critical = friction / (1.1 * ratio) * 2e-9 * omega;
-  // The table ends four lengths below, and the exponential that continues it meets it to round-off;
-  // what is left are the tables of K_t that are followed, good to 1e-9.
+  // The table ends four lengths below, and the exponential that continues it agrees to round-off.
+  // The difference comes from the tables of K_t that are followed, which are accurate to 1e-9.
   const auto same = [&](const Oscillation& motion, double excursion) {
     const Loss table = loss_with_slip(own, 0, motion, friction, excursion),
                formula = loss_with_slip(like, 0, motion, friction, excursion);
@@ -522,13 +530,13 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   };
   same(EqualFrequency{.normal_amplitude = 2e-8, .tangential_amplitude = 1e-8, .phase = 1}, NAN);
   same(Drag{2e-8, 0.01 * critical, omega}, 2e-8);
-  // Ten times faster than levels stick for, over many depths: what a turning point stores is
-  // 1.3 x_c = 1.3 (μ/g)l of way at μF, twice in 2X.
+  // Ten times faster than springs can stick, over many depths: a turning point stores the work of
+  // μF over 1.3 x_c = 1.3 (μ/g)l, twice in 2X.
   const Drag fast{2e-9, 10 * critical, omega};
   const double excursion = 1e-4, stored = 1.3 * friction / ratio * length / excursion;
   CHECK(same(fast, excursion) / (friction * own.force(0) * fast.distance_per_cycle()) ==
         Approx(1).margin(2 * stored + 1e-3));
-  // A joint carries μF where all of it slips, (1 − e^{−20}) of it at twenty depths.
+  // A joint carries μF when all of it slips; at twenty depths it carries (1 − e^{−20}) of that.
   const JointLoss joint =
       joint_loss(like, at_indentation(0),
                  TangentialAmplitude{20 * friction / (1.1 * ratio) * length}, friction);
@@ -538,7 +546,8 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
         Approx(friction * own.force(0) * (1 - std::exp(-3.5))).epsilon(1e-6));
 }
 
-TEST_CASE("A map of regimes has the borders of the assumptions, and they are monotone", "[regimes]") {
+TEST_CASE("A map of regimes has the borders of the assumptions, and they are monotone",
+          "[regimes]") {
   const ExponentialLaw exponential(1, 1e-7, ratio);
   const TabulatedLaw table(exponential_curve(1e-7), ratio);
   const IndenterLaw punch(flat_punch_profile(1e-3), material);
@@ -560,7 +569,8 @@ TEST_CASE("A map of regimes has the borders of the assumptions, and they are mon
     const std::vector<double> excursions = decades(1e-4 * one.amplitude, 1e3 * one.amplitude, 15);
     const RegimeMap map = regime_map(*one.law, one.mean, normal, velocities, excursions, friction);
     CHECK(map.critical_velocity == Approx(critical).epsilon(1e-12));
-    // The punch loses nothing without slip: what it slips is told from round-off, 1e-7 of ½K_t X².
+    // The punch loses nothing without slip, so its slip is measured against round-off, 1e-7 of ½K_t
+    // X².
     const double noise = one.law == &punch ? 0.02 : 1e-4;
     bool ended = false;
     for (std::size_t i = 0; i < velocities.size(); ++i) {
@@ -589,7 +599,7 @@ TEST_CASE("A map of regimes has the borders of the assumptions, and they are mon
         CHECK_FALSE(loss < less * (1 - 1e-9));
         less = loss;
         if (map.regime[i][j] == Regime::no_slip && !std::isnan(loss)) {
-          // 5 % by each of both assumptions, beside what the turning points take.
+          // 5 % for each of both assumptions, and the loss that the turning points prevent.
           const Assumption& slow = assumptions.slow_motion;
           const double taken = one.law == &punch ? 0 : 0.05 * slow.limit_5_percent / slow.value;
           CHECK(std::abs(loss - 1 + taken) < 0.1001);
@@ -598,14 +608,14 @@ TEST_CASE("A map of regimes has the borders of the assumptions, and they are mon
         }
       }
     }
-    // The corner of slow and short motions has the loss without slip: 360 steps miss 0.02 % of what
-    // slips at the edge.
+    // Slow and short motions have the loss without slip; 360 steps miss 0.02 % of the slip at the
+    // edge.
     if (one.law != &punch) {
       CHECK(map.regime[0][0] == Regime::no_slip);
       const Assumption slow =
           assumptions_of(*one.law, one.mean,
-                      Drag{one.amplitude, velocities[0], normal.angular_frequency},
-                      {.friction_coefficient = friction, .excursion = excursions[0]})
+                         Drag{one.amplitude, velocities[0], normal.angular_frequency},
+                         {.friction_coefficient = friction, .excursion = excursions[0]})
               .slow_motion;
       CHECK(map.loss_ratio(0, 0) ==
             Approx(1 - 0.05 * slow.limit_5_percent / slow.value).epsilon(2e-3));
@@ -635,7 +645,7 @@ TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]
     CHECK(name_of(map.regime[0][0]) == name_of(point.regime));
     INFO(map.slip_ratio(0, 0) * stick / loss.slip_work - 1
          << ' ' << map.loss_ratio(0, 0) * stick / loss.work - 1);
-    // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
+    // Exact to first order in a normal cycle over the excursion; 360 steps miss 1e-3.
     CHECK(map.slip_ratio(0, 0) ==
           Approx(loss.slip_work / stick).epsilon(0.1 / (point.cycles * point.cycles) + 3e-3));
     CHECK(map.loss_ratio(0, 0) ==
@@ -656,7 +666,7 @@ TEST_CASE("A long slow way loses what steady sliding does", "[regimes]") {
     CAPTURE(i);
     const double stuck = 2 * pi * velocities[i] * velocities[i] / normal.angular_frequency *
                          sliding[i].relaxation_damping;
-    // 256 cells for the 21 l that carry 1 − 1e-9 of the force; 360 steps.
+    // 256 cells over 21 l, which carry 1 − 1e-9 of the force; 360 steps.
     CHECK(map.slip_ratio(Index(i), 0) == Approx(sliding[i].slip_work / stuck).epsilon(1e-3));
     CHECK(map.loss_ratio(Index(i), 0) - map.slip_ratio(Index(i), 0) ==
           Approx(sliding[i].relaxation_work / stuck).epsilon(2e-3));
@@ -668,8 +678,9 @@ TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes
   const double mean = 1e-6, amplitude = 3e-7;
   const double kept = std::pow(0.05, 2.0 / 3) * (mean - amplitude);
   const auto regime = [&](double displacement, double phase) {
-    return assumptions_of(paraboloid, mean, EqualFrequency{amplitude, stretch * displacement, phase},
-                       {.friction_coefficient = friction})
+    return assumptions_of(paraboloid, mean,
+                          EqualFrequency{amplitude, stretch * displacement, phase},
+                          {.friction_coefficient = friction})
         .regime;
   };
   // 2L = |u_x e^{iφ0} − A| + |u_x e^{iφ0} + A| in units of μ/g: at 90° L² = u_x² + u_z², at 0° L =
@@ -681,7 +692,7 @@ TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes
   CHECK(regime(0.999 * depth, 1e-6) == Regime::partial_slip);
   CHECK(regime(1.001 * depth, 1e-6) == Regime::sliding);
   CHECK(regime(1e-3 * amplitude, pi / 2) == Regime::no_slip);
-  // What is not known has no regime.
+  // Without friction or excursion the regime is unknown.
   CHECK(assumptions_of(paraboloid, mean, EqualFrequency{amplitude, 1e-8, 1}).regime ==
         Regime::unknown);
   CHECK(assumptions_of(paraboloid, mean, Drag{amplitude, 1e-9, 1e5}, {.friction_coefficient = 0.3})
@@ -710,11 +721,11 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
     return validity_of(verdicts_of(cases, slip_followed, pressures));
   };
   CHECK(validity() == Validity::valid);
-  // The amplitude is a condition of the closed forms alone.
+  // The amplitude is an assumption of the closed forms only.
   cases[0].amplitude.verdict = Verdict::broken;
   CHECK(validity() == Validity::valid);
   CHECK(closed_form_verdict(cases).verdict == Verdict::broken);
-  // Something not known leaves the whole open, and is less than what fails.
+  // An unknown verdict leaves the whole open, and ranks below a broken one.
   cases[1].inertia = {.verdict = Verdict::unknown, .needs = "angular_frequency"};
   CHECK(validity() == Validity::not_checked);
   CHECK(verdicts_of(cases, false)[0].here == "`frequency` not given");
@@ -727,12 +738,12 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
   CHECK(slow.here == "2, at 1 MPa, 3 MPa to 4 MPa");
   CHECK(!slow.remedy.empty());
   CHECK_THAT(verdicts_of(cases, false)[0].here, Catch::EndsWith(", in 3 of 5"));
-  // Slip that is followed is no condition.
+  // If slip is computed, it is no assumption.
   for (Assumptions& one : cases) one.slip_of_opening_springs.verdict = Verdict::broken;
   CHECK(validity() == Validity::not_valid);
   CHECK_THAT(verdicts_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
   CHECK(validity(true) == Validity::valid_with_care);
-  // The limit comes from the case that bears least.
+  // The limit comes from the least tolerant case.
   cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6, .excursion = 2e-9}};
   cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6, .excursion = 3e-9}};
   CHECK(motion_without_slip(cases) == "2 nm at 2 \u00b5m/s (\u00b5 = 0.3)");
@@ -750,7 +761,7 @@ TEST_CASE("Pressure and size are judged at the deepest point of the oscillation"
     ContactParameters parameters{.hardness = 1e9, .density = 7800};
     parameters.contact_modulus = modulus;
     return assumptions_of(law, rests, drag,
-                       at_state(parameters, law, curve, rests, rests + drag.normal_amplitude));
+                          at_state(parameters, law, curve, rests, rests + drag.normal_amplitude));
   };
   const Material material = Material::of_contact_modulus(modulus, 0.3);
   // Hertz: p0 = 2E*√(δ/R)/π = 1.5 times the mean, a = √(Rδ).
@@ -768,7 +779,7 @@ TEST_CASE("Pressure and size are judged at the deepest point of the oscillation"
   const IndenterLaw punch(flat_punch_profile(radius), material);
   CHECK(judged(punch, nullptr, rest, motion).plasticity.value ==
         Approx(1.5 * 2 * modulus * (rest + amplitude) / (pi * radius) / 1e9).epsilon(1e-9));
-  // A curve answers with the load that is nearest to the peak; beyond its end with the last.
+  // A curve gives the load nearest to the peak, and its last load beyond its end.
   const double length = 1e-7;
   ForceCurve curve = exponential_curve(length);
   curve.nominal_area = 1e-6;
@@ -805,12 +816,12 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
         {&exponential, 0, 1e-8},
         {&table, 0, 1e-8}}) {
     const double force = mean_force_of_cycle(*law, rest, amplitude);
-    // A thousand times the elastic way of any of these, far above the velocity at which levels
-    // stick: turning points and the force above δ_min change less than 1 %.
+    // A thousand times the elastic displacement of any of these, far above the velocity at which
+    // springs stick: turning points and the force above δ_min change less than 1 %.
     const Drag drag{amplitude, 10 * friction * amplitude * omega, omega};
     const double excursion = 1e3 * friction * law->force(rest) / law->normal_stiffness(rest);
-    const Assumptions slides =
-        assumptions_of(*law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
+    const Assumptions slides = assumptions_of(
+        *law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
     CHECK(slides.regime == Regime::sliding);
     const Loss loss = loss_with_slip(*law, rest, drag, friction, excursion);
     CHECK(closed_form::damping_constant(loss.work_per_cycle, drag) ==
@@ -820,9 +831,10 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
     CHECK(said(slides).find("γ = µF/v: Coulomb friction, not a damper") != std::string::npos);
     CHECK(said(slides).find("use `salebra sliding`") != std::string::npos);
 
-    // Case (a): W = 4µF u_x, less twice the elastic way.
+    // Case (a): W = 4µF u_x, less twice the elastic displacement.
     const EqualFrequency shear{amplitude, excursion, pi / 2, omega};
-    const Assumptions sheared = assumptions_of(*law, rest, shear, {.friction_coefficient = friction});
+    const Assumptions sheared =
+        assumptions_of(*law, rest, shear, {.friction_coefficient = friction});
     CHECK(sheared.regime == Regime::sliding);
     const double work = loss_with_slip(*law, rest, shear, friction).work_per_cycle;
     // At φ0 = 90° the force has its mean where the velocity is largest, and ∮F|dx| = 4F̄u_x.
@@ -830,13 +842,14 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
     CHECK(said(sheared).find("γ = 4µF/(πωu_x)") != std::string::npos);
 
     // A short motion is a damper.
-    const Assumptions sticks = assumptions_of(*law, rest, EqualFrequency{amplitude, 1e-13, pi / 4, omega},
-                                        {.friction_coefficient = friction});
+    const Assumptions sticks =
+        assumptions_of(*law, rest, EqualFrequency{amplitude, 1e-13, pi / 4, omega},
+                       {.friction_coefficient = friction});
     CHECK(sticks.regime == Regime::no_slip);
     CHECK_FALSE(word(sticks));
   }
-  // Under a large oscillation what is always closed slides and is next to nothing: slowly dragged
-  // the contact relaxes, and its force is far from µF.
+  // Under a large oscillation the springs that are always closed slide but carry almost nothing.
+  // Under a slow drag the contact relaxes, and its force is far from µF.
   const Drag slow{5e-7, 0.1 * friction / ratio * 5e-7 * omega, omega};
   const ContactParameters parameters{.friction_coefficient = friction, .excursion = 1e-4};
   CHECK(assumptions_of(exponential, 0, slow, parameters).regime == Regime::partial_slip);
@@ -849,7 +862,7 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
   const EqualFrequency wide{2e-6, 1e-4, pi / 2, omega};
   CHECK(assumptions_of(ball, 1e-6, wide, {.friction_coefficient = friction}).regime ==
         Regime::sliding);
-  // Over loads the line says which.
+  // For several loads the line names those that slide.
   const Assumptions none{}, sliding = [] {
     Assumptions one;
     one.regime = Regime::sliding;

@@ -16,7 +16,8 @@ const EqualFrequency equal{
     .normal_amplitude = 3e-7, .tangential_amplitude = 2e-7, .phase = 0.7, .angular_frequency = 50};
 const Drag drag{.normal_amplitude = 3e-7, .drag_velocity = 1e-4, .angular_frequency = 300};
 
-// Composite Gauss–Legendre with six points a panel: a route of its own for smooth integrands.
+// Composite Gauss–Legendre rule with six points per panel: an independent method for smooth
+// integrands.
 double gauss(const std::function<double(double)>& f, double low, double high, int panels) {
   const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
@@ -65,7 +66,7 @@ TEST_CASE("J(k), I_0(k) and the equal-frequency ratio are the integrals they sta
           "[closed_form]") {
   const double k = GENERATE(1e-4, 0.5, 0.9999, 1.0001, 2.0, 10.0, 25.0);
   auto weight = [&](double angle) { return std::exp(k * (std::cos(angle) - 1)); };
-  // Six points in each of 100 panels: far below 1e-13 for k up to 25.
+  // Six points in each of 100 panels: the error is far below 1e-13 for k up to 25.
   CHECK(cf::drag_integral_scaled(k) ==
         Approx(gauss([&](double t) { return t * t * std::sin(t) * weight(t); }, 0, pi, 100))
             .epsilon(1e-12));
@@ -111,7 +112,7 @@ TEST_CASE("Under a dead weight the exponential contact is that of a force lower 
 
 TEST_CASE("I(r) is the release integral of two frequencies", "[closed_form]") {
   const double ratio = GENERATE(1e-3, 0.1, 0.2499, 0.2501, 0.5, 0.5 + 1e-9, 0.75, 1.0, 2.5);
-  // |s| = 2u_x |sin(ω_x t_j + φ0) sin(rθ)|: what is left when the first sine is taken out.
+  // s| = 2u_x |sin(ω_x t_j + φ0) sin(rθ)|: this is the integral without the first sine.
   const double direct =
       gauss([&](double t) { return std::pow(std::sin(ratio * t), 2) * std::sin(t); }, 0, pi, 60);
   CHECK(cf::frequency_ratio_integral(ratio) == Approx(direct).epsilon(1e-11));

@@ -20,9 +20,10 @@ namespace {
 constexpr double ratio = 0.8;
 
 std::shared_ptr<const LawSprings> intervals_of(const ContactLaw& law, double lowest, double highest,
-                                           double friction, int springs) {
+                                               double friction, int springs) {
   return std::make_shared<const LawSprings>(
-      law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .springs = springs});
+      law, lowest, highest,
+      LawSpringsOptions{.friction_coefficient = friction, .springs = springs});
 }
 
 double size_of(const ElementForces& forces) {
@@ -40,10 +41,10 @@ std::vector<std::array<double, 3>> walk(double low, double high, double reach, i
   return path;
 }
 
-// The largest difference of the force along x from that of a contact without levels, relative to
-// μF, over a path of turning points that both take in small steps.
+// Largest difference of the force along x from that of a contact without levels, relative to μF,
+// over a path of turning points that both follow in small steps.
 double error_of_intervals(const ContactLaw& law, double low, double high, double friction,
-                       int springs) {
+                          int springs) {
   const double reach = 0.6 * (high - low);
   TangentialContact exact(law, low, high,
                           {.friction_coefficient = friction, .tangential_range = 2 * reach});
@@ -68,8 +69,8 @@ double error_of_intervals(const ContactLaw& law, double low, double high, double
   return worst;
 }
 
-// A curve of loads spread evenly in ln F: of a body whose K_t/K falls from 0.95 to 0.8 with load, or
-// with stiffnesses that scatter by as much as is given.
+// A curve of loads spread evenly in ln F, for a body whose K_t/K falls from 0.95 to 0.8 with load,
+// with a given scatter of both stiffnesses.
 enum class Body { exponential, sphere, summits };
 struct MeasuredCurve {
   Body body;
@@ -104,7 +105,7 @@ ForceCurve curve_of(const MeasuredCurve& table) {
   return curve;
 }
 
-// Twenty curves: three bodies, as few and as many loads as people take, with scatter of K and K_t.
+// Twenty curves: three bodies, few and many loads as in practice, and scatter of K and K_t.
 std::vector<MeasuredCurve> measured_curves() {
   std::vector<MeasuredCurve> all;
   for (const Body body : {Body::exponential, Body::sphere, Body::summits}) {
@@ -128,14 +129,14 @@ TEST_CASE("No path takes the tangential force of a tabulated law beyond μF") {
     const double low = law.indentation_of(0.05), reach = 0.5 * (highest - middle);
     ContactElement element(intervals_of(law, low, highest, friction, 64));
     element.start(middle, 0, 0);
-    // The lowest tangent ends where the contact parts: a part of the path lies there. Every other
-    // motion is short, and one along x: most of these slip only a little.
+    // The lowest tangent ends where the contact separates, and part of the path lies below. Every
+    // other motion is a short one along x, and most of these slip only a little.
     int number = 0;
     for (auto [indentation, x, y] : walk(2 * low - middle, highest, reach, 5000)) {
       if (++number % 2 == 0) x = element.state()[1] + 0.02 * x, y = element.state()[2];
       const ElementForces forces = element.move_to(indentation, x, y);
       REQUIRE(forces.normal_force >= 0);
-      // Round-off of sums of 64 levels.
+      // The allowance is the round-off of sums of 64 levels.
       worst = std::max(worst, size_of(forces) - friction * forces.normal_force * (1 + 1e-12));
       REQUIRE(worst <= 0);
     }
@@ -143,7 +144,7 @@ TEST_CASE("No path takes the tangential force of a tabulated law beyond μF") {
     CHECK(here.normal_force == Approx(law.force(middle)).epsilon(1e-3));
     const ElementForces slid = element.move_to(middle, 1e-4, 0);
     sliding = size_of(slid) / (friction * slid.normal_force);
-    // Stretches of 1e-7 m from before turn the springs by 1e-3 from the way of 1e-4 m.
+    // Earlier stretches of 1e-7 m turn the springs by 1e-3 relative to the distance of 1e-4 m.
     CHECK(sliding == Approx(1).epsilon(1e-6));
     CHECK(element.move_to(law.lowest_indentation() - 1e-5, 0, 0).normal_force == 0);
     CHECK(size_of(element.move_to(law.lowest_indentation() - 1e-5, 1e-8, 0)) == 0);
@@ -158,7 +159,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
     const double middle = law.indentation_of(1);
     const auto loop = [&](const EqualFrequency& motion, double coefficient, double& peak) {
       ContactElement element(intervals_of(law, middle - motion.normal_amplitude,
-                                       middle + motion.normal_amplitude, coefficient, 512));
+                                          middle + motion.normal_amplitude, coefficient, 512));
       const auto at = [&](double phase) {
         return std::array{middle + motion.normal_amplitude * std::cos(phase),
                           motion.tangential_amplitude * std::cos(phase + motion.phase)};
@@ -175,9 +176,9 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
       return work;
     };
     // Both have the K_t of the law, and a loss proportional to the stretch at which a spring slips:
-    // the joint takes K_t/K at its indentation for it, and the element that of the whole contact. The
-    // depth of slip counts once more where K_t bends.
-    const LawSprings springs(law, middle, middle, {.intervals = 512});
+    // the joint takes K_t/K at its indentation, the element that of the whole contact. The depth of
+    // slip enters once more where K_t has a kink.
+    const LawSprings springs(law, middle, middle, {.springs = 512});
     double reach = 0;
     for (std::size_t i = 0; i < springs.size(); ++i)
       if (springs.spring_depths()[i] < middle)
@@ -195,7 +196,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
       CHECK(peak == Approx(joint.tangential_force).epsilon(ratios));
       CHECK(work == Approx(joint.work_per_cycle).epsilon(ratios));
     }
-    // In full stick nothing but the law is left, and K_t falls nowhere but by scatter.
+    // In full stick only the law matters, and K_t falls only by scatter.
     const EqualFrequency motion{
         .normal_amplitude = 0.5 * decay, .tangential_amplitude = 0.01 * decay, .phase = pi / 2};
     const DampingResult damping = relaxation_damping(law, at_indentation(middle), motion);
@@ -206,7 +207,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
 }
 
 TEST_CASE("On noisy curves of a sphere an element and a joint differ by less than the noise does") {
-  // Loads of 1 mN to 10 N with a standard deviation of 1 % in F and in K_t.
+  // Loads from 1 mN to 10 N, with a standard deviation of 1 % in F and in K_t.
   const double friction = 0.3, coefficient = 4e9 / 3 * std::sqrt(1e-3), middle_force = 1;
   const double middle = std::pow(middle_force / coefficient, 2.0 / 3);
   const double stiffness = ratio * 1.5 * middle_force / middle;
@@ -250,8 +251,9 @@ TEST_CASE("On noisy curves of a sphere an element and a joint differ by less tha
     difference_square += std::pow((work - joint) / exact, 2) / curves;
     largest = std::max(largest, std::abs(work / joint - 1));
   }
-  // The loss is one of K_t', which makes 15 to 20 % of the noise of 1 %. The element and the joint see
-  // the same noise in it and differ by K_t/K, of the whole or at one place, and by K_t where it falls.
+  // The loss depends on K_t', which turns a noise of 1 % into 15 to 20 %. The element and the joint
+  // have the same noise. They differ by K_t/K, of the whole contact or at one depth, and where K_t
+  // falls.
   CAPTURE(std::sqrt(element_square), std::sqrt(joint_square), std::sqrt(difference_square),
           largest);
   CHECK(largest > 0.1);
@@ -261,8 +263,8 @@ TEST_CASE("On noisy curves of a sphere an element and a joint differ by less tha
 }
 
 TEST_CASE("The force of an element tends to that of a contact without levels") {
-  // Levels as wide as h leave an error of h in where slip ends and in what a level remembers, hence
-  // of first order at least; between 32 and 256 levels it falls by 8 or more.
+  // Levels of the width h leave an error of h in the end of slip and in the history of a level. The
+  // order is therefore at least one: between 32 and 256 levels the error falls by 8 or more.
   const ExponentialLaw exponential(10, 1e-7, ratio);
   const double coarse = error_of_intervals(exponential, -5e-8, 5e-8, 0.3, 32);
   const double fine = error_of_intervals(exponential, -5e-8, 5e-8, 0.3, 256);
@@ -282,14 +284,14 @@ TEST_CASE("The normal force of an element is that of the law to fourth order of 
       worst = std::max(worst, std::abs(of.normal(at).force / law.force(at) - 1));
     return worst;
   };
-  // A cubic of width h errs by h⁴F''''/384; h = 4 l/16.
+  // A cubic of the width h has the error h⁴F''''/384; h = 4 l/16.
   CHECK(error(32) < 1.1 * std::pow(0.25, 4) / 384);
   CHECK(error(32) / error(64) == Approx(16).epsilon(0.1));
 }
 
 TEST_CASE("An element in full stick loses what the levels that it lets go held") {
-  // δ = w cos, x = X cos with the phase π/2 between them: γ of the exponential law in closed form.
-  // Here the loss of two laps of a rectangle in (δ, x), of which the law's own is K_t(high) −
+  // δ = w cos, x = X cos with the phase π/2 between them: γ of the exponential law has a closed
+  // form. Here the path is two laps of a rectangle in (δ, x). The law itself loses K_t(high) −
   // K_t(low) times X²/2 each time the body rises at 0 and falls at X.
   const ExponentialLaw law(10, 1e-7, ratio);
   const double low = -3e-8, high = 4e-8, travel = 5e-9;
@@ -306,7 +308,7 @@ TEST_CASE("An element in full stick loses what the levels that it lets go held")
     go(high, 0), go(high, travel), go(low, travel), go(low, 0);
   }
   const double held = law.tangential_stiffness(high) - law.tangential_stiffness(low);
-  // Straight sides are followed without an error, but for that of sums.
+  // Straight sides are followed exactly, up to the round-off of sums.
   CHECK(work == Approx(2 * 0.5 * held * travel * travel).epsilon(1e-12));
 }
 
@@ -335,7 +337,7 @@ TEST_CASE("An element under a constant load loses what Mindlin's bodies lose in 
         8 * friction * friction / ratio * decay * load * (-(1 - q / 2) * std::log1p(-q) - q);
     return std::abs(work / exact - 1);
   };
-  // The depth of slip is known to a level, which is narrow where slip begins: of second order.
+  // The depth of slip is known to one level, which is thin where slip begins: second order.
   for (const double q : {0.1, 0.5, 0.9}) {
     CAPTURE(q);
     CHECK(error(q, 64) < 0.015);
@@ -351,8 +353,8 @@ TEST_CASE("Sliding in any direction takes μF, against the motion") {
     const std::vector<double> from = element.state();
     const ElementForces forces =
         element.move_to(4e-8, from[1] + 1e-5 * std::cos(angle), from[2] + 1e-5 * std::sin(angle));
-    // What springs were stretched by before, up to 1e-8 m, turns them by 1e-3 from the way of 1e-5 m
-    // and from each other, and their sum is shorter by half of the square.
+    // Earlier stretches of up to 1e-8 m turn the springs by 1e-3 relative to the distance of 1e-5 m
+    // and to each other; their sum is shorter by half of the square.
     CHECK(size_of(forces) == Approx(0.2 * forces.normal_force).epsilon(1e-6));
     CHECK(std::atan2(forces.tangential_force[1], forces.tangential_force[0]) ==
           Approx(angle > pi ? angle - 2 * pi : angle).margin(3e-3));
@@ -388,7 +390,8 @@ TEST_CASE("The stiffness of an element is the derivative of its forces") {
       for (const auto& end : walk(-1e-8, 9e-8, 4e-8, 300)) {
         const ElementForces here = element.forces(end[0], end[1], end[2]);
         for (std::size_t along = 0; along < 3; ++along) {
-          // Forces bend where a level begins to slip: both one-sided differences agree elsewhere.
+          // Forces have a kink where a level begins to slip; elsewhere both one-sided differences
+          // agree.
           constexpr double step = 1e-14;
           std::array<double, 3> before = end, after = end;
           before[along] -= step, after[along] += step;
@@ -423,7 +426,7 @@ TEST_CASE("A copy of an element and its numbers are states to come back to") {
   for (int i = 0; i < 20; ++i) element.move_to(path[i][0], path[i][1], path[i][2]);
   ContactElement copy = element, restored(springs);
   restored.restore(element.state());
-  element.forces(9e-8, 1e-6, 0);  // a step that is not taken
+  element.forces(9e-8, 1e-6, 0);  // the step is not taken
   for (int i = 20; i < 40; ++i) {
     const auto expected = element.move_to(path[i][0], path[i][1], path[i][2]);
     CHECK(copy.move_to(path[i][0], path[i][1], path[i][2]).tangential_force ==
@@ -432,7 +435,7 @@ TEST_CASE("A copy of an element and its numbers are states to come back to") {
           expected.tangential_force);
   }
   CHECK_THROWS_WITH(restored.restore(std::vector<double>{1.0, 2.0}),
-                    Catch::Contains("numbers are not those of these levels"));
+                    Catch::Contains("numbers do not match the number of springs"));
 }
 
 TEST_CASE("An element that parts has no force, and forgets") {
@@ -441,14 +444,15 @@ TEST_CASE("An element that parts has no force, and forgets") {
     ContactElement element(intervals_of(law, -1e-7, 1e-7, friction, 32));
     element.start(0, 0, 0);
     CHECK(size_of(element.move_to(0, 1e-8, 2e-8)) > 0);
-    // 1e-6 of the highest force are 14 decay lengths below it, and the tangent one further.
+    // 1e-6 of the highest force lies 14 decay lengths below it, and the tangent reaches one
+    // further.
     const ElementForces apart = element.move_to(-2e-6, 5e-7, 0);
     CHECK(apart.normal_force == 0);
     CHECK(size_of(apart) == 0);
     CHECK(apart.stiffness[0][0] == 0);
-    // What touches again where it stands is free of stress.
+    // Springs that touch again at the same position are free of stress.
     CHECK(size_of(element.move_to(0, 5e-7, 0)) < 1e-12);
-    // At first all springs stick, in the levels that are as wide as they slip in 1e-9 m.
+    // All springs stick at first, except in levels as thin as the depth that slips in 1e-9 m.
     CHECK(element.move_to(0, 5e-7 + 1e-9, 0).tangential_force[0] ==
           Approx(law.tangential_stiffness(0) * 1e-9).epsilon(0.02));
   }
@@ -458,14 +462,14 @@ TEST_CASE("Levels say what they cannot do") {
   const ExponentialLaw law(10, 1e-7, ratio);
   CHECK_THROWS_WITH(LawSprings(law, 0, 1e-8, {.friction_coefficient = -1}),
                     Catch::Contains("friction_coefficient"));
-  CHECK_THROWS_WITH(LawSprings(law, 0, 1e-8, {.intervals = 2}), Catch::Contains("intervals"));
+  CHECK_THROWS_WITH(LawSprings(law, 0, 1e-8, {.springs = 2}), Catch::Contains("springs"));
   CHECK_THROWS_WITH(LawSprings(law, 1e-8, 0), Catch::Contains("lowest"));
   CHECK_THROWS_WITH(LawSprings(PowerLaw(1e9, 1.5, ratio), -2e-8, -1e-8),
-                    Catch::Contains("nothing touches"));
+                    Catch::Contains("without contact"));
   ForceCurve falling{.model = "measured", .nominal_area = 1, .samples = {}};
   for (const double at : {1e-8, 2e-8, 3e-8, 4e-8, 5e-8, 6e-8})
     falling.samples.push_back({.indentation = at, .force = std::sqrt(at)});
   CHECK_THROWS_WITH(LawSprings(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
-                    Catch::Contains("off the mean of those about it"));
+                    Catch::Contains("from the mean of its neighbours"));
   CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("intervals"));
 }

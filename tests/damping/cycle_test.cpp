@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 constexpr double contact_modulus = 3e9;
 
-// Cells whose centres lie within a radius of the middle of the grid, shifted by (0.31, 0.17) of a
-// cell.
+// Cells whose centres lie within a radius of the middle of the grid, which is shifted by (0.31,
+// 0.17) of a cell.
 ContactSet disc(const Grid2D& grid, double radius) {
   ContactSet contact(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -38,8 +38,8 @@ ContactSets cone(const Grid2D& grid) {
   };
 }
 
-// Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and
-// have holes that close.
+// Nested sets without symmetry: islands that appear, grow and merge as δ goes from 0 to 1, with
+// holes that close.
 ContactSets islands(const Grid2D& grid) {
   return [grid](double indentation) {
     ContactSetAt level{.contact = ContactSet(grid.nx, grid.ny)};
@@ -55,7 +55,7 @@ ContactSets islands(const Grid2D& grid) {
   };
 }
 
-// K_t of a set for motion along `direction`.
+// K_t of a contact set for motion along `direction`.
 double stiffness_along(const ContactSet& contact, const Grid2D& grid, const Material& material,
                        const CycleOptions& options) {
   const StickStiffness k = stick_stiffness(contact, grid, material, options.stick);
@@ -63,16 +63,16 @@ double stiffness_along(const ContactSet& contact, const Grid2D& grid, const Mate
   return c * c * k.xx + 2 * c * s * k.xy + s * s * k.yy;
 }
 
-// The theorem for the sets of a discretised cycle that is symmetric about t = 1/2: the cells
-// between A(t_k) and A(t_{k+1}) enter at t_{k+1/2} and leave at 1 − t_{k+1/2}, hence W = ½ Σ
-// (K_{k+1} − K_k) s².
+// The theorem for the sets of a discretised cycle that is symmetric about t = 1/2. The cells
+// between A(t_k) and A(t_{k+1}) enter at t_{k+1/2} and leave at 1 − t_{k+1/2}, so W = ½ Σ (K_{k+1}
+// − K_k) s².
 double theorem(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
                const Trajectory& motion, const CycleOptions& options) {
   double sum = 0, below = 0;
   for (int k = 0; k <= options.steps / 2; ++k) {
     const double t = static_cast<double>(k) / options.steps, middle = t - 0.5 / options.steps;
     const double here =
-        stiffness_along(levels(motion.indentation(t)).contact, grid, material, options);
+        stiffness_along(contact_sets(motion.indentation(t)).contact, grid, material, options);
     if (k > 0)
       sum +=
           (here - below) * std::pow(motion.tangential(1 - middle) - motion.tangential(middle), 2);
@@ -100,8 +100,8 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
     REQUIRE(cycle.converged());
     CHECK(cycle.periods == 1);
     CHECK(cycle.steady);
-    // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed
-    // over the steps.
+    // Exact for the discretised problem; the solvers leave 1e-9 of the motion, summed over the
+    // steps.
     CHECK(cycle.work_per_cycle ==
           Approx(theorem(levels, grid, material, trajectory, options)).epsilon(1e-7));
     CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-7));
@@ -125,8 +125,7 @@ TEST_CASE("Cells that enter and leave while the body rests release nothing", "[c
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
-  // The core is moved, the contact grows and shrinks again around it, which has been displaced;
-  // then the core is moved back.
+  // The core is displaced, the contact around it grows and shrinks again, then the core moves back.
   const Trajectory trajectory{
       [](double t) {
         return t < 0.3 || t > 0.7 ? 0.3 : 0.3 + 0.6 * std::sin((t - 0.3) / 0.4 * pi);
@@ -144,7 +143,7 @@ TEST_CASE("Cells that enter and leave while the body rests release nothing", "[c
   // The solvers' 1e-8 of the motion, twenty times.
   CHECK(std::abs(cycle.dissipated) < 1e-6 * stored);
   CHECK(std::abs(cycle.work_per_cycle) < 1e-6 * stored);
-  // All the while the force is that of the core: what enters carries no traction.
+  // The force stays that of the core, because cells that enter carry no traction.
   for (const CycleSample& sample : cycle.samples)
     if (sample.t > 0.26 && sample.t < 0.74)
       CHECK(sample.tangential_force == Approx(core * 1e-6).epsilon(1e-6));
@@ -165,19 +164,18 @@ TEST_CASE("The steps state an error that covers what they lack to many steps", "
   for (const int steps : {8, 16, 20, 32, 45, 64}) {
     const CycleResult cycle = run(steps);
     CHECK(std::abs(cycle.work_per_cycle - settled) <= cycle.step_error);
-    // The margin is not wide, so that the number is of use to a reader.
+    // The error is not much larger than the deviation, so it is useful to a reader.
     CHECK(cycle.step_error < 12.0 / steps * settled);
     if (steps == 8) first = cycle.step_error;
     last = cycle.step_error;
   }
-  // Eight times as many steps: first order is what is left where few cells, and those in groups,
-  // enter in a step.
+  // Eight times as many steps: the order is one, since few cells enter in a step, and they enter in
+  // groups.
   CHECK(last < first / 4);
 }
 
 TEST_CASE("The steps' error holds where few of them meet many cells", "[cycle]") {
-  // Here it is that of the rule, h²/24 = 2.6 % at eight steps, and not what single cells make of
-  // it.
+  // The error is that of the rule, h²/24 = 2.6 % at eight steps, and not that of single cells.
   const Grid2D grid{56, 56, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const double indentation = 0.25e-3 * cone_slope, amplitude = 0.2e-3 * cone_slope;
@@ -194,7 +192,7 @@ TEST_CASE("The steps' error holds where few of them meet many cells", "[cycle]")
 }
 
 TEST_CASE("The steps' error holds for a motion that turns inside the sweep", "[cycle]") {
-  // Two unequal rises a period, begun on the way up: bands enter, are partly released and enter
+  // Two unequal rises per period, begun while δ rises: bands enter, are partly released and enter
   // again.
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
@@ -215,7 +213,7 @@ TEST_CASE("The steps' error holds for a motion that turns inside the sweep", "[c
     if (steps == 24) first = cycle.step_error;
     last = cycle.step_error;
   }
-  // Four times as many steps, and nothing of where the first period began.
+  // Four times as many steps, with no trace of where the first period began.
   CHECK(last < first / 2);
 }
 
@@ -235,7 +233,7 @@ TEST_CASE("A contact turned by 90 degrees loses along y what it lost along x", "
   const double other =
       simulate_cycle(islands(grid), grid, material, motion, along_y).work_per_cycle;
   CHECK(second == Approx(first).epsilon(1e-7));
-  // The contact has no symmetry of its own that would hide an exchange of the axes.
+  // The contact has no symmetry that could hide an exchange of the axes.
   CHECK(std::abs(other / first - 1) > 0.005);
 }
 
@@ -256,8 +254,8 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
     CHECK(cycle.smallest.count() * grid.cell_area() == cycle.contact_area_min);
     return cycle.work_per_cycle;
   };
-  // Measured: 0.2 % in case (a), most of it the steps' h²/24 = 1.6e-3, and 0.5 to 0.8 % in case
-  // (b), the grid's.
+  // Measured: 0.2 % in case (a), mostly h²/24 = 1.6e-3 of the steps, and 0.5 to 0.8 % in case (b),
+  // from the grid.
   for (const double phase : {pi / 2, pi / 4}) {
     const double s = std::sin(phase);
     CHECK(lost(EqualFrequency{amplitude, 2e-6, phase}) ==
@@ -268,8 +266,8 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
 }
 
 TEST_CASE("The loss goes with the squared sine of the phase, even in few steps", "[cycle]") {
-  // A contact set that changed before or after the move, not in its middle, would shift the phase
-  // by half a step: 20 % of the loss at 45 degrees and 32 steps, and nothing at 90 degrees.
+  // If a contact set changed before or after the move and not in its middle, the phase would shift
+  // by half a step: 20 % of the loss at 45 degrees and 32 steps, nothing at 90 degrees.
   const Grid2D grid{24, 24, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const auto lost = [&](double phase) {
@@ -294,7 +292,7 @@ TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
   const double stiffness = stick_stiffness(disc(grid, 0.3e-3), grid, material, options.stick).xx;
   CHECK(std::abs(cycle.work_per_cycle) < 1e-9 * stiffness * amplitude * amplitude / 2);
   CHECK(cycle.dissipated == 0);
-  // Half way through the energy is there: the motion does do work.
+  // Half-way the energy is stored: the motion does work.
   CHECK(cycle.samples[8].work > 0.1 * stiffness * amplitude * amplitude);
 }
 
@@ -311,7 +309,7 @@ TEST_CASE("The steady loss does not depend on where the motion starts", "[cycle]
   CHECK(second.periods > 1);
   CHECK(second.steady);
   CHECK(second.work_per_cycle == Approx(first.work_per_cycle).epsilon(1e-6));
-  // Stopped after the first period, which is not the steady one, it says so.
+  // A run that stops after the first period, which is not steady, reports that.
   const CycleResult hasty =
       simulate_cycle(islands(grid), grid, material, from_greatest, {.steps = 16, .max_periods = 1});
   CHECK(hasty.periods == 1);
@@ -342,7 +340,7 @@ TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input
   CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged());
   const ContactSets doubtful = [&](double indentation) {
     ContactSetAt level = islands(grid)(indentation);
-    level.converged = indentation < 0.4 || indentation > 0.6;  // met on the way, not at its ends
+    level.converged = indentation < 0.4 || indentation > 0.6;  // reached inside the cycle
     return level;
   };
   CHECK_FALSE(simulate_cycle(doubtful, grid, material, motion, {.steps = 8}).converged());

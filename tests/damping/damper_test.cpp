@@ -19,7 +19,7 @@ constexpr double ratio = 0.8;
 }  // namespace
 
 TEST_CASE("A tangential oscillator decays by γ under fast normal oscillation", "[damper]") {
-  // The equation of motion with the full history of the contact, against the linear damper.
+  // Compares the equation of motion with the full history of the contact to the linear damper.
   const PowerLaw law(1e9, 2, ratio);
   const double mean = 1e-6, amplitude = 4e-7, slow = 1;
   const double kept = law.tangential_stiffness(mean - amplitude);
@@ -49,7 +49,7 @@ TEST_CASE("A tangential oscillator decays by γ under fast normal oscillation", 
   }
   const double energy = 0.5 * (v * v + slow * slow * x * x) / (0.5 * 1e-18);
   const double time = 2 * pi * cycles;
-  // The released force has a ripple and a mean shift of order ω0/ω = 0.5 % of γ.
+  // The force of separating springs has a ripple and a mean shift of order ω0/ω = 0.5 % of γ.
   CHECK(-std::log(energy) / time == Approx(2 / decay.decay_time).epsilon(0.02));
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("Decay numbers agree among each other, overdamped too", "[damper]") {
       oscillator_decay(law, at_force(1), normal, {.mass = 1e-9, .spring_stiffness = 0});
   CHECK(heavy.damping_ratio > 1);
   CHECK(std::isnan(heavy.logarithmic_decrement));
-  // Overdamped for good: the mass does not matter, x decays with γ/k.
+  // Far in the overdamped range the mass does not matter: x decays with γ/k.
   CHECK(heavy.decay_time == Approx(heavy.damping_constant / heavy.contact_stiffness).epsilon(1e-3));
   CHECK_THROWS_WITH(oscillator_decay(law, at_force(1), normal, {.mass = 0}),
                     Catch::Contains("mass"));
@@ -88,7 +88,7 @@ TEST_CASE("The stabilising amplitude is where γ meets the falling slope", "[dam
   CHECK(stabilising_amplitude(law, at_force(2), omega, slope, 1e-6) ==
         Approx(pi * omega * decay_length * decay_length * slope / ((pi * pi - 4) * ratio * 2))
             .epsilon(1e-4));
-  // Under a dead weight γ has a maximum over u_z; beyond it no amplitude helps.
+  // With the mean force held γ has a maximum over u_z; beyond it no amplitude helps.
   const DampingOptions weight{.hold = Hold::force};
   double most = 0;
   for (double k = 0.5; k < 20; k += 0.1)
@@ -102,9 +102,9 @@ TEST_CASE("The stabilising amplitude is where γ meets the falling slope", "[dam
 
 TEST_CASE("The stabilising amplitude of a measured curve is that of the law behind it",
           "[damper]") {
-  // An exponential curve, sampled: the table interpolates ln F linearly and so reproduces it. δ far
-  // from 0, as it is from first touch: the search must not go where a sweep is lost in the last
-  // digits of δ.
+  // A sampled exponential curve: the table interpolates ln F linearly and so reproduces it. δ is
+  // far from 0, as if counted from first touch: the search must not reach amplitudes at which the
+  // sweep is lost in the last digits of δ.
   const double decay_length = 3e-8, omega = 1e5, area = 1e-10, highest = 2.5e-7;
   ForceCurve curve{.model = "made", .nominal_area = area};
   for (int i = 0; i <= 40; ++i) {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/contact_element.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
@@ -35,7 +35,7 @@ Drag slow_drag(double amplitude) {
   return {.normal_amplitude = amplitude, .drag_velocity = 1e-4, .angular_frequency = 300};
 }
 
-// Work of one cycle by brute force, from the lowest point, in `steps` straight steps.
+// Work of one cycle of single springs, from the smallest indentation, in `steps` straight steps.
 double work_of_springs(const ContactLaw& law, double indentation, const Oscillation& motion,
                        int levels, int steps) {
   const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
@@ -55,7 +55,7 @@ double work_of_springs(const ContactLaw& law, double indentation, const Oscillat
   return springs.released();
 }
 
-// A punch with a flat end: K_t jumps at first touch and is constant above.
+// A punch with a flat end: K_t jumps at first touch and is constant above it.
 const PowerLaw flat_punch(1e6, 1, ratio);
 
 }  // namespace
@@ -65,7 +65,7 @@ TEST_CASE("Eqs (12), (15) are exact at every amplitude for the cone", "[dissipat
   const double indentation = 1e-6, amplitude = GENERATE(1e-9, 1e-7, 9.9e-7);
   const auto equal = equal_frequency(amplitude, 0.7);
   const auto drag = slow_drag(amplitude);
-  // The difference of two stiffnesses costs 3 digits at u_z/δ = 1e-3.
+  // The difference of two stiffnesses loses 3 digits at u_z/δ = 1e-3.
   CHECK(relaxation_damping(cone, at_indentation(indentation), equal).work_per_cycle ==
         Approx(cf::work_per_cycle(ratio, 1e10, equal)).epsilon(1e-11));
   const DampingResult result = relaxation_damping(cone, at_indentation(indentation), drag);
@@ -138,7 +138,7 @@ TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[
       CHECK_THROWS_WITH(cf::work_per_cycle_exponential(ratio, 10, decay_length, motion),
                         Catch::Contains("at most 249 nm"));
   }
-  // A mean force that is held has a finite largest one, √(2πu_z/l) = 15 times as large.
+  // With a held mean force the maximum force is finite, √(2πu_z/l) = 15 times as large.
   CHECK(relaxation_damping(law, at_force(10), slow_drag(1e-6), {.hold = Hold::force})
             .work_per_cycle ==
         Approx(cf::work_per_cycle_exponential_held_force(ratio, 10, decay_length, slow_drag(1e-6)))
@@ -151,10 +151,10 @@ TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[
   CHECK_NOTHROW(relaxation_damping(ball, at_indentation(1e-6), slow_drag(0.999 * deepest - 1e-6)));
   CHECK_THROWS_WITH(relaxation_damping(ball, at_indentation(1e-6), slow_drag(1)),
                     Catch::Contains("at most 5.55 mm"));
-  // A cone has its pressure at every load, whatever the amplitude.
+  // The pressure of a cone is the same at every load, so no amplitude is too large.
   const IndenterLaw cone(cone_profile(0.1), Material::of_contact_modulus(1e9, 0.3));
   CHECK_NOTHROW(relaxation_damping(cone, at_indentation(1e-6), slow_drag(1)));
-  // A loss that no number holds is refused.
+  // A loss that overflows is refused.
   Drag fast = slow_drag(1e-9);
   fast.drag_velocity = 1e200;
   CHECK_THROWS_AS(relaxation_damping(law, at_force(10), fast), InvalidInput);
@@ -171,7 +171,7 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
     const double middle = -0.5 * possible;
     return sample(slow_drag(highest - middle), middle, 64);
   };
-  // Paths and levels have their middle at -l ln(10⁴)/2, and the law rests at 0.
+  // The paths have their middle at -l ln(10⁴)/2, and the law rests at 0.
   const char *about_rest = "at most 249 nm", *of_path = "at most 373 nm";
   refuses([&](double f) { return mean_force_of_cycle(law, 0, f * possible); }, about_rest);
   refuses([&](double f) { return loss_with_slip(law, 0, slow_drag(f * possible), 0.3, 1e-6); },
@@ -185,7 +185,7 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
   refuses([&](double f) { return assumptions_of(law, path_to(f * possible)); }, of_path);
   refuses([&](double f) { return LawSprings(law, -2 * possible, f * possible); }, of_path);
   CHECK_THROWS_WITH(LawSprings(law, 0, 1e5 * decay_length), Catch::Contains("at most 249 nm"));
-  // Under a held mean force the same amplitudes lie about a lower mean indentation.
+  // With a held mean force the same amplitudes have a lower mean indentation.
   const double wide = 1e-6, settled = indentation_at_mean_force(law, 10, wide);
   CHECK(mean_force_of_cycle(law, settled, wide) == Approx(10));
   CHECK(loss_with_slip(law, settled, slow_drag(wide), 0.3, 1e-4).work_per_cycle > 0);
@@ -211,7 +211,7 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
   CHECK_THROWS_WITH(by_force(1.001), Catch::Contains("contact modulus"));
   CHECK_THROWS_WITH(indentation_at_mean_force(ball, 0.9 * max_force, 0.5 * deepest),
                     Catch::Contains("contact modulus"));
-  // A contact that rests there already, whatever the amplitude.
+  // A contact that already rests there is refused at any amplitude.
   for (const Amplitude amplitude : {Amplitude::small, Amplitude::finite})
     CHECK_THROWS_WITH(relaxation_damping(ball, at_indentation(1.001 * deepest), slow_drag(1e-12),
                                          {.amplitude = amplitude}),
@@ -268,9 +268,9 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
     auto error = [&](int levels) {
       return std::abs(work_of_springs(law, indentation, motion, levels, 4 * levels) / exact - 1);
     };
-    // Second order where K_t' and s² are smooth. At the ends of the sweep s² goes like a root of
-    // the distance in (b), which leaves 1.25 and more; where first touch, K_t ~ δ^{n−1}, coincides
-    // with an end, n − 1/2.
+    // Second order where K_t' and s² are smooth. At the ends of the sweep s² is like a root of the
+    // distance in (b), which leaves the order 1.25 or more. Where first touch, K_t ~ δ^{n−1},
+    // coincides with an end, the order is n − 1/2.
     const double coarse = error(100), fine = error(400);
     const double order = std::log(coarse / fine) / std::log(4.0);
     CHECK(fine < 1e-2);
@@ -301,7 +301,7 @@ TEST_CASE("A dead weight keeps its mean force while the contact opens", "[dissip
   const double force = 1e-2, settled = paraboloid.indentation_of(force);
   const double amplitude = GENERATE(0.1, 1.0, 3.0) * settled;
   const double mean = indentation_at_mean_force(paraboloid, force, amplitude);
-  // Midpoint rule over the cycle; the kink at first touch leaves it at order 2.5.
+  // Midpoint rule over the cycle; the kink at first touch reduces it to order 2.5.
   double sum = 0;
   const int steps = 20000;
   for (int i = 0; i < steps; ++i)
@@ -323,7 +323,7 @@ TEST_CASE("A contact that never touches loses nothing, and one at rest neither",
   still.drag_velocity = 0;
   const DampingResult result = relaxation_damping(paraboloid, at_indentation(1e-6), still);
   CHECK(result.work_per_cycle == 0);
-  // γ is a property of the normal motion and exists without any drag.
+  // γ is a property of the normal motion and exists without a drag.
   CHECK(result.damping_constant ==
         relaxation_damping(paraboloid, at_indentation(1e-6), slow_drag(1e-7)).damping_constant);
 }
@@ -338,7 +338,7 @@ TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipat
   const TabulatedLaw law(curve, ratio);
   for (const Oscillation& motion :
        {Oscillation(equal_frequency(1e-7)), Oscillation(slow_drag(1e-7))})
-    // ln F is a straight line, which the table holds to round-off.
+    // ln F is a straight line, which the table reproduces to round-off.
     CHECK(relaxation_damping(law, at_force(1), motion).work_per_cycle ==
           Approx(relaxation_damping(exact, at_force(1), motion).work_per_cycle).epsilon(1e-9));
   CHECK_THROWS_WITH(relaxation_damping(law, at_indentation(3.5e-7), slow_drag(1e-7)),
@@ -360,7 +360,7 @@ TEST_CASE("A damping curve is its cases one by one", "[dissipation]") {
   REQUIRE(results.size() == cases.size());
   for (std::size_t i = 0; i < cases.size(); i += 37)
     CHECK(results[i].work_per_cycle ==
-          relaxation_damping(law, cases[i].position, cases[i].motion).work_per_cycle);
+          relaxation_damping(law, cases[i].point, cases[i].motion).work_per_cycle);
   CHECK(reports == 3);
   auto stop = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(relaxation_damping(law, cases, {.on_progress = stop}), Interrupted);
@@ -374,7 +374,7 @@ TEST_CASE("Nonsense motion is refused with its name", "[dissipation]") {
   };
   refuse(slow_drag(-1e-9), "normal_amplitude");
   refuse(slow_drag(std::nan("")), "normal_amplitude");
-  refuse(slow_drag(1e300), "normal_amplitude");  // F ~ u^1.5 has no number there
+  refuse(slow_drag(1e300), "normal_amplitude");  // F ~ u^1.5 overflows there
   refuse(Drag{1e-7, 1e-4, 0}, "angular_frequency");
   refuse(Drag{1e-7, std::nan(""), 1}, "drag_velocity");
   refuse(EqualFrequency{1e-7, 1e-7, INFINITY, 0}, "phase");

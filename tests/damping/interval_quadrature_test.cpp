@@ -27,12 +27,12 @@ const Grid2D grid{48, 48, 1e-3, 1e-3};
 constexpr double mean_indentation = 0.3e-6,
                  amplitude = 0.1e-6;  // contact radii from 0.24 to 0.35 mm
 
-ContactSets free_levels(Surface surface) {
+ContactSets free_contact_sets(Surface surface) {
   return boundary_element_contact_sets(std::move(surface), contact_modulus,
-                                 {.tolerance = 1e-9, .boundary = Boundary::free});
+                                       {.tolerance = 1e-9, .boundary = Boundary::free});
 }
 ContactSets paraboloid() {
-  return free_levels(paraboloid_surface(grid, radius, off_grid_center(grid)));
+  return free_contact_sets(paraboloid_surface(grid, radius, off_grid_center(grid)));
 }
 
 IntervalQuadratureOptions free_boundary() {
@@ -49,12 +49,12 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
   const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}),
                                     Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
-    const IntervalQuadratureResult intervals =
-        interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
+    const IntervalQuadratureResult intervals = interval_quadrature(
+        paraboloid(), grid, material, motion, mean_indentation, free_boundary());
     const DampingResult exact = relaxation_damping(law, at_indentation(mean_indentation), motion);
     REQUIRE(intervals.converged());
-    // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b),
-    // which weighs the edge of the sweep.
+    // With 23 to 34 cells across the contact: half a per cent measured in case (a), one per cent in
+    // case (b), in which the ends of the sweep weigh more.
     CHECK(intervals.work_by_force == Approx(exact.work_per_cycle).epsilon(0.012));
     CHECK(intervals.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.012));
     CHECK(intervals.work_by_intervals == Approx(exact.work_per_cycle).epsilon(0.012));
@@ -62,20 +62,20 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
     CHECK(intervals.force_curvature == Approx(exact.force_curvature).epsilon(0.05));
     CHECK(intervals.force == Approx(exact.force).epsilon(1e-3));
     CHECK(intervals.small_amplitude_work == Approx(std::visit(
-                                             [&](const auto& m) {
-                                               return closed_form::work_per_cycle(
-                                                   material.modulus_ratio(), intervals.force_curvature,
-                                                   m);
-                                             },
-                                             motion)));
+                                                [&](const auto& m) {
+                                                  return closed_form::work_per_cycle(
+                                                      material.modulus_ratio(),
+                                                      intervals.force_curvature, m);
+                                                },
+                                                motion)));
     if (poisson == 0)  // the kernels coincide
       CHECK(intervals.work_per_cycle == Approx(intervals.work_by_force).epsilon(1e-8));
   }
 }
 
 TEST_CASE("The levels' stated error holds wherever the cells lie under the contact", "[levels]") {
-  // 12 or 18 cells across: where the sums of cells agree by chance, as they do in a few of twelve
-  // places, only their scatter tells.
+  // 12 or 18 cells across. In a few of twelve positions the sums of cells agree by chance, and only
+  // their scatter shows the error.
   const Index n = GENERATE(16, 24);
   const Grid2D cells{n, n, 1e-3, 1e-3};
   const Oscillation motion = EqualFrequency{amplitude, 2e-7, 0.8};
@@ -83,10 +83,11 @@ TEST_CASE("The levels' stated error holds wherever the cells lie under the conta
   for (int place = 0; place < 12; ++place) {
     const PlanePoint center{0.5e-3 + place / 12.0 * cells.dx(),
                             0.5e-3 + (place * 5 % 12) / 12.0 * cells.dy()};
-    const ContactSets intervals = free_levels(paraboloid_surface(cells, radius, center));
+    const ContactSets intervals = free_contact_sets(paraboloid_surface(cells, radius, center));
     const auto run = [&](double poisson) {
-      return interval_quadrature(intervals, cells, Material::of_contact_modulus(contact_modulus, poisson),
-                              motion, mean_indentation, free_boundary());
+      return interval_quadrature(intervals, cells,
+                                 Material::of_contact_modulus(contact_modulus, poisson), motion,
+                                 mean_indentation, free_boundary());
     };
     const Material material = Material::of_contact_modulus(contact_modulus, 0);
     const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
@@ -95,7 +96,7 @@ TEST_CASE("The levels' stated error holds wherever the cells lie under the conta
     const IntervalQuadratureResult result = run(0), anisotropic = run(0.5);
     CHECK(std::abs(result.work_per_cycle - exact) <= result.error_estimate);
     stated += result.error_estimate / exact / 12;
-    // At ν = 0 the ratio of K_t to K is the same at all levels; where it scatters, that adds to the
+    // At ν = 0 the ratio of K_t to K is the same at all levels; otherwise its scatter adds to the
     // error.
     const double same_force = anisotropic.work_by_force / result.work_by_force;
     CHECK(anisotropic.error_estimate > 1.001 * same_force * result.error_estimate);
@@ -107,9 +108,9 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
           "[levels]") {
   const double poisson = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-  // Hertz: the ellipses of all levels are similar.
+  // Hertz: the contact ellipses at all indentations are similar.
   const ContactSets intervals =
-      free_levels(elliptic_paraboloid_surface(grid, 0.4, 0.04, off_grid_center(grid)));
+      free_contact_sets(elliptic_paraboloid_surface(grid, 0.4, 0.04, off_grid_center(grid)));
   const ContactSet widest = intervals(mean_indentation + amplitude).contact;
   double mean_x = 0, mean_y = 0, square_x = 0, square_y = 0;
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -125,8 +126,8 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   const double axes =
       std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
   CHECK(axes < 0.4);
-  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of docs/theory.md, section 7's kernel, by the
-  // trapezoidal rule: periodic, so exact.
+  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ from the kernel in docs/theory.md, section 7, by
+  // the trapezoidal rule, which is exact here because the integrand is periodic.
   const auto compliance = [&](double a, double b) {
     double sum = 0;
     for (int k = 0; k < 400; ++k) {
@@ -158,7 +159,7 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
 
 TEST_CASE("A contact that lies askew loses along its own axes as it does along the grid's",
           "[levels]") {
-  // Only K_xy tells the long axis of an ellipse at 30° from its mirror image.
+  // Only K_xy distinguishes the long axis of an ellipse at 30° from its mirror image.
   const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
   const double angle = pi / 6;
   const auto ratio = [&](double turned, double direction) {
@@ -174,8 +175,8 @@ TEST_CASE("A contact that lies askew loses along its own axes as it does along t
     IntervalQuadratureOptions options = free_boundary();
     options.intervals = 8;
     options.direction = direction;
-    return interval_quadrature(free_levels(surface), grid, material,
-                            EqualFrequency{amplitude, 2e-7, pi / 2}, mean_indentation, options)
+    return interval_quadrature(free_contact_sets(surface), grid, material,
+                               EqualFrequency{amplitude, 2e-7, pi / 2}, mean_indentation, options)
         .stiffness_ratio;
   };
   const double along = ratio(angle, angle);
@@ -205,7 +206,8 @@ TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
   CycleOptions steps{.steps = 64};
   const double by_steps =
       simulate_cycle(caps, cells, material, trajectory_of(motion, 0.5), steps).work_per_cycle;
-  // Both sample a K_t that grows by whole cells, a few hundred of them: below a per cent.
+  // Both sample a K_t that grows by whole cells, of which there are a few hundred: below a per
+  // cent.
   CHECK(by_levels == Approx(by_steps).epsilon(0.01));
 }
 
@@ -228,8 +230,8 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   CHECK_FALSE(partly.converged());
   CHECK(partly.curve.samples[1].converged);
   CHECK_FALSE(partly.curve.samples[4].converged);
-  // The stick solve, which begins from the punch's pressures, may reach what the punch did not:
-  // that one fails all the same.
+  // The stick solve starts from the pressures of the punch and may converge although the punch did
+  // not. That level fails all the same.
   const Material without_ratio = Material::of_contact_modulus(contact_modulus, 0);
   int rescued = 0;
   for (int iterations = 3; iterations <= 12; ++iterations) {
@@ -263,9 +265,9 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   options.intervals = 3;
   CHECK_THROWS_WITH(
       interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, options),
-      Catch::StartsWith("levels: 3"));
+      Catch::StartsWith("intervals: 3"));
   CHECK_THROWS_WITH(interval_quadrature(paraboloid(), grid, material, EqualFrequency{0, 1, 1},
-                                     mean_indentation, free_boundary()),
+                                        mean_indentation, free_boundary()),
                     Catch::StartsWith("normal_amplitude: 0"));
 }
 
@@ -297,8 +299,8 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
         simulate_cycle(intervals, cells, material, trajectory_of(motion, depth), steps);
     REQUIRE(by_levels.converged());
     REQUIRE(by_steps.converged());
-    // h²/24 = 0.16 % of the steps and a per cent of the cells: 24 across the contact of a pyramid,
-    // 6 across a wave.
+    // The steps leave h²/24 = 0.16 %, the cells a per cent: 24 across the contact of a pyramid, 6
+    // across a wave.
     CHECK(by_steps.work_per_cycle == Approx(by_levels.work_per_cycle).epsilon(0.015));
     CHECK(std::abs(by_steps.work_per_cycle - by_levels.work_per_cycle) <=
           by_steps.step_error + by_levels.error_estimate);
@@ -337,7 +339,7 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
         simulate_cycle(intervals, cells, material, trajectory_of(motion, mean.indentation), steps);
     REQUIRE(by_levels.converged());
     REQUIRE(by_steps.converged());
-    // Measured at 128² and 256² over loads: 0.02 to 0.8 %, of which 0.16 % are the 32 steps'.
+    // Measured at 128² and 256² over loads: 0.02 to 0.8 %, of which the 32 steps leave 0.16 %.
     CHECK(by_steps.work_per_cycle == Approx(by_levels.work_per_cycle).epsilon(0.012));
     CHECK(by_levels.error_estimate < 0.03 * by_levels.work_per_cycle);
     CHECK(by_steps.step_error < 0.03 * by_steps.work_per_cycle);
@@ -349,10 +351,10 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
 
 TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on the same cells",
           "[levels]") {
-  // A load and a sweep so small that some dozens of cells change: nothing here is smooth, but W =
-  // ½∮ s² dK_t is no statement about smooth contacts. What is left is where between two levels, or
-  // two steps, a cell enters; it falls with their number. Measured on three surfaces, two loads and
-  // three sweeps with 64 levels and 128 steps: 0.01 to 0.56 %.
+  // The load and the sweep are so small that only some dozens of cells change. Nothing here is
+  // smooth, but W = ½∮ s² dK_t does not require smooth contacts. The error comes from where a cell
+  // enters between two levels, or two steps, and falls with their number. Measured on three
+  // surfaces, two loads and three sweeps with 64 levels and 128 steps: 0.01 to 0.56 %.
   const Grid2D cells{64, 64, 1e-3, 1e-3};
   SelfAffineParameters parameters;
   parameters.rolloff = cells.lx / 4;
@@ -367,8 +369,8 @@ TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on 
       boundary_element_contact_sets(surface, contact_modulus, {.tolerance = 1e-9});
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 1e-7, pi / 4}),
                                     Oscillation(Drag{amplitude, 1e-3, 1e4})}) {
-    const IntervalQuadratureResult by_levels =
-        interval_quadrature(intervals, cells, material, motion, mean.indentation, {.intervals = 64});
+    const IntervalQuadratureResult by_levels = interval_quadrature(
+        intervals, cells, material, motion, mean.indentation, {.intervals = 64});
     CycleOptions steps;
     steps.steps = 128;
     const CycleResult by_steps =

@@ -29,8 +29,8 @@ double mindlin_loss(double force, double normal_force, double radius, double she
 }  // namespace
 
 TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[joint]") {
-  // x/x_s = 0.45, 0.6, 0.8 and 1, in eight digits, where x_s = μE*δ/G* is where all of it slides and
-  // T/(μF) = 1 − (1 − x/x_s)^{3/2}; W is mindlin_loss() of that T.
+  // x/x_s = 0.45, 0.6, 0.8 and 1, in eight digits. The whole contact slides at x_s = μE*δ/G*, with
+  // T/(μF) = 1 − (1 − x/x_s)^{3/2}; W is mindlin_loss() of this T.
   const Material material = Material::of_contact_modulus(115e9, 0.3);
   const IndenterLaw sphere(paraboloid_profile(10e-3), material);
   const double friction = 0.3, force = 10;
@@ -45,10 +45,10 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
     const JointLoss loss =
         joint_loss(sphere, at_force(force), TangentialAmplitude{amplitude}, friction);
     CHECK(loss.converged);
-    // An eighth digit of x moves W by 1e-7 of it.
+    // A change in the eighth digit of x changes W by 1e-7.
     CHECK(loss.work_per_cycle == Approx(work).epsilon(3e-7));
     CHECK(loss.relaxation_work == 0);
-    // The last of them is where the whole contact begins to slide: there neither T nor W tells x.
+    // In the last of them the whole contact begins to slide, and neither T nor W determines x.
     if (loss.tangential_force > 0.999 * friction * force) continue;
     CHECK(
         loss.work_per_cycle ==
@@ -65,9 +65,10 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
 TEST_CASE(
     "The exponential law in partial slip has its closed form, and the third power of small forces",
     "[joint]") {
-  // l = 100 nm, F = 1 N, μ = 0.3, ν = 0.3. By Masing's rule on T = μ[F(δ) − F(δ − G*x/(μE*))], with
-  // q = T/(μF): x = −(μE*/G*) l ln(1 − q) and W = 8(μ²E*/G*) l F [−(1 − q/2) ln(1 − q) − q], here in
-  // eight digits for q = 0.1, 0.3, 0.5 and 0.8.
+  // l = 100 nm, F = 1 N, μ = 0.3, ν = 0.3. Masing's rule on T = μ[F(δ) − F(δ − G*x/(μE*))] gives,
+  // with q = T/(μF), x = −(μE*/G*) l ln(1 − q) and
+  //     W = 8(μ²E*/G*) l F [−(1 − q/2) ln(1 − q) − q],
+  // here in eight digits for q = 0.1, 0.3, 0.5 and 0.8.
   const double length = 1e-7, friction = 0.3, modulus_ratio = 1.4 / 1.7;
   const ExponentialLaw law(1, length, modulus_ratio);
   const std::pair<double, double> given[] = {{3.838133e-9, 8.0862576e-12},
@@ -77,7 +78,7 @@ TEST_CASE(
   for (const auto& [amplitude, work] : given) {
     CAPTURE(amplitude);
     const JointLoss loss = joint_loss(law, at_force(1), TangentialAmplitude{amplitude}, friction);
-    CHECK(loss.work_per_cycle == Approx(work).epsilon(2e-6));  // of the digits of x, three times
+    CHECK(loss.work_per_cycle == Approx(work).epsilon(2e-6));  // 3 × error of x
     const double q = loss.tangential_force / friction;
     CHECK(loss.work_per_cycle == Approx(8 * friction * friction / modulus_ratio * length *
                                         (-(1 - q / 2) * std::log1p(-q) - q))
@@ -87,11 +88,11 @@ TEST_CASE(
                          (-(1 - q / 2) * std::log1p(-q) - q) * q;
     CHECK(loss.exponent == Approx(slope).epsilon(1e-8));
   }
-  // ∝ T³, and what is left of it ∝ T: q/2 of W.
+  // At small q, W is proportional to T³; the next term of its series is q times that.
   for (const double q : {1e-2, 1e-4, 1e-6}) {
     const JointLoss loss = joint_loss(law, at_force(1), TangentialForce{q * friction}, friction);
     const double cube = 2. / 3 * length / modulus_ratio * std::pow(q, 3) * friction * friction;
-    // Beside the next term, what round-off of K_t leaves of a part q² of it.
+    // Tolerance: the term of order q², and the round-off of K_t.
     CHECK(loss.work_per_cycle == Approx(cube * (1 + q)).epsilon(q * q + 1e-14 / q));
     CHECK(loss.exponent == Approx(3).margin(2 * q + 1e-13 / q));
     CHECK(loss.storage_stiffness == Approx(law.tangential_stiffness(0)).epsilon(q));
@@ -99,12 +100,12 @@ TEST_CASE(
 }
 
 TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[joint]") {
-  // The power is no whole number: sums over a period are exact for polynomials.
+  // The exponent is not an integer, because sums over a period are exact for polynomials.
   const PowerLaw cone(1e9, 1.5, ratio);
   const double friction = 0.4, amplitude = 2e-7;
   const JointLoss loss =
       joint_loss(cone, at_indentation(1e-6), TangentialAmplitude{amplitude}, friction);
-  // Sums over the steps of a smooth half loop have no error of any power of the step.
+  // The error of sums over the steps of a smooth half loop falls faster than any power of the step.
   const JointLoss followed = joint_loss(cone, at_indentation(1e-6),
                                         JointMotion{TangentialAmplitude{amplitude}}, friction, 200);
   CHECK(followed.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
@@ -116,8 +117,8 @@ TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[jo
 }
 
 TEST_CASE("A joint of a contact that may open: whole sliding, and beyond", "[joint]") {
-  // F = Cδ², K = 2Cδ: slip reaches the last level where c = δ, and from there on T = μF, W = 4μF(x
-  // − mean limit).
+  // F = Cδ², K = 2Cδ: slip reaches the last spring at c = δ; from there on T = μF, W = 4μF(x − mean
+  // limit).
   const double depth = 1e-6, friction = 0.2, constant = 1e12;
   const PowerLaw cone(constant, 2, ratio);
   const double force = constant * depth * depth, last = friction / ratio * depth;
@@ -139,8 +140,8 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   const auto at = [&](double friction, double phase) {
     return joint_loss(law, at_force(2), {TangentialAmplitude{u_x}, u_z, phase}, friction);
   };
-  // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is
-  // relaxation damping's, to the steps' second order.
+  // In phase nothing slips above μ = g u_x/u_z. Out of phase and without slip the loss is that of
+  // relaxation damping, up to the second-order error of the steps.
   const double critical = ratio * u_x / u_z;
   CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
   CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);
@@ -150,7 +151,8 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   CHECK(stiff.work_per_cycle == Approx(stuck).epsilon(1e-5));
   CHECK(stiff.slip_work == Approx(0).margin(1e-9 * stuck));
   CHECK(stiff.exponent == Approx(2).epsilon(1e-3));  // relaxation is linear in the springs
-  // Both ways of control have one loop where the other's is harmonic: at small amplitude.
+  // At small amplitude the response is harmonic, so control by force and by displacement give one
+  // loop.
   const double small = 1e-11;
   const JointLoss moved =
       joint_loss(law, at_force(2), {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
@@ -163,22 +165,21 @@ TEST_CASE("A joint under a tangential force is the one under the displacement it
           "[joint]") {
   const ExponentialLaw law(2, 2e-7, ratio);
   const double friction = 0.3;
-  // Without a normal oscillation both are known in closed form.
+  // Without a normal oscillation both numbers have closed forms.
   const JointLoss exact = joint_loss(law, at_force(2), TangentialForce{0.3}, friction);
   const JointLoss followed =
       joint_loss(law, at_force(2), JointMotion{TangentialForce{0.3}}, friction, 400);
   CHECK(followed.work_per_cycle == Approx(exact.work_per_cycle).epsilon(1e-8));
   CHECK(followed.tangential_amplitude == Approx(exact.tangential_amplitude).epsilon(1e-8));
-  // With one the force is met at every step, and the balance of energy closes: W = ∮T dx.
+  // With an oscillation the force is met at every step, and the energy balance closes: W = ∮T dx.
   const JointLoss both =
       joint_loss(law, at_force(2), {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 400);
   CHECK(both.tangential_force == Approx(0.2).epsilon(1e-12));
   const JointLoss finer =
       joint_loss(law, at_force(2), {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 1600);
   CHECK(finer.work_per_cycle == Approx(both.work_per_cycle).epsilon(1e-2));
-  CHECK_THROWS_WITH(
-      joint_loss(law, at_force(2), {TangentialForce{0.55}, 1e-7, pi}, friction, 400),
-      Catch::Contains("at which the contact slides in the course of the normal oscillation"));
+  CHECK_THROWS_WITH(joint_loss(law, at_force(2), {TangentialForce{0.55}, 1e-7, pi}, friction, 400),
+                    Catch::Contains("at which the contact slides during the normal oscillation"));
 }
 
 TEST_CASE("Joints that cannot be are refused", "[joint]") {
@@ -191,10 +192,10 @@ TEST_CASE("Joints that cannot be are refused", "[joint]") {
   CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
   CHECK_THROWS_AS(joint_loss(law, at_force(2), {TangentialForce{0.1}, -1e-9, 0}, 0.3),
                   InvalidInput);
-  // A joint holds its mean indentation: nothing else is proposed.
+  // A joint holds its mean indentation, so the message proposes nothing else.
   CHECK_THROWS_WITH(joint_loss(law, at_force(2), {TangentialForce{0.1}, 2e-6, 0}, 0.3),
                     Catch::Contains("normal_amplitude") &&
-                        Catch::EndsWith("at most 1.84 µm here; give a `curve` that covers the "
+                        Catch::EndsWith("at most 1.84 µm, or give a `curve` that covers the "
                                         "motion"));
 }
 
@@ -204,7 +205,7 @@ TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {
     return joint_loss(law, at_force(1), TangentialOscillation(TangentialAmplitude{x}), 0.3)
         .exponent;
   };
-  // d ln W/d ln T from two motions a thousandth apart, where a part still sticks.
+  // d ln W/d ln T from two motions that differ by a thousandth, while a part still sticks.
   const double x = 1e-8;
   const auto loss = [&](double one) {
     return joint_loss(law, at_force(1), TangentialOscillation(TangentialAmplitude{one}), 0.3);
@@ -213,7 +214,7 @@ TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {
   CHECK(at(x) == Approx(std::log(high.work_per_cycle / low.work_per_cycle) /
                         std::log(high.tangential_force / low.tangential_force))
                      .epsilon(1e-3));
-  // T = µF to the last digit: W grows with x at a constant force.
+  // If T = µF to the last digit, W grows with x at a constant force.
   CHECK(std::isnan(at(2e-6)));
   const JointMotion follows{TangentialAmplitude{2e-6}, 1e-9, 0.5};
   CHECK(std::isnan(joint_loss(law, at_force(1), follows, 0.3, 400).exponent));

@@ -17,13 +17,13 @@ namespace {
 
 using std::numbers::pi;
 
-// Between δ = 1 and 3.
+// 65 indentations between δ = 1 and 3.
 Eigen::VectorXd places() {
   return Eigen::VectorXd::NullaryExpr(65,
                                       [](Index k) { return 2 + std::cos(pi * double(k) / 64); });
 }
 
-// W of a drag, but for constants: ∫θ[K − K(π)]dθ.
+// W of a drag without constant factors: ∫θ[K − K(π)]dθ.
 Eigen::VectorXd weights_of_loss(const KrigedStiffness& kriged) {
   constexpr int steps = 2000;
   Eigen::VectorXd weights = -pi * pi / 2 * kriged.weights_at(1);
@@ -45,7 +45,8 @@ TEST_CASE("A stiffness that is a parabola is kriged without an error of its form
     samples.push_back({at, force(at), stiffness(at), 1000 * at, 50, 400, 1});
   }
   const KrigedStiffness kriged(samples, places());
-  // The forces are those of parabolas, and K is linear between 65 places: 1e-3 of its bend.
+  // The forces are those of parabolas, and K is linear between 65 places: an error of 1e-3 of its
+  // curvature.
   for (const double at : {1.0, 1.3, 2.0, 2.9}) {
     CHECK(kriged.stiffness(at) == Approx(stiffness(at)).epsilon(1e-4));
     CHECK(kriged.force(at) == Approx(force(at)).epsilon(1e-4));
@@ -53,9 +54,9 @@ TEST_CASE("A stiffness that is a parabola is kriged without an error of its form
 }
 
 TEST_CASE("The deviation of a kriged loss is that of spots and cells that enter at chance") {
-  // Spots of an exponential law, 60 at the mean, K = ΣK_i with K_i ∝ √(δ − δᵢ). On the grid the
-  // area of each is that of the lattice points in a disc at a random place. Z = (kriged −
-  // true)/deviation has the variance 1.
+  // Contact patches of an exponential law, 60 at the mean, K = ΣK_i with K_i ∝ √(δ − δᵢ). On the
+  // grid the area of each is that of the lattice points in a disc at a random place. Z = (kriged −
+  // true)/deviation must have the variance 1.
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   constexpr double decay = 1.5, highest = 3, cells_of_area = 40;
@@ -124,8 +125,8 @@ TEST_CASE("The deviation of a kriged loss is that of spots and cells that enter 
     misses += std::abs(z) > 1.8;
   }
   INFO(squares << ' ' << misses);
-  // The mean of 60 squares varies by 18 %. The lattice's variance is a mean over discs of all
-  // sizes, and what the scales of the variances may be makes the deviation larger.
+  // The mean of 60 squares varies by 18 %. The variance of the lattice is a mean over discs of all
+  // sizes, and the uncertainty of the variance scales makes the deviation larger.
   CHECK(squares < 1.5);
   CHECK(squares > 0.1);
   CHECK(misses <= 8);

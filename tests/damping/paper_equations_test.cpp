@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Each numbered equation of Popov, Popov, Pohrt, "Relaxation damping in oscillating contacts",
-// under its number, by two routes at least that share no code: the closed form, quadratures written
-// out here, the engine of turning points, the foundation of springs.
+// under its number, by at least two methods that share no code: the closed form, quadratures
+// written out here, the engine of turning points, the foundation of springs.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -30,7 +30,7 @@ const EqualFrequency equal{
 const Drag drag{.normal_amplitude = 3e-7, .drag_velocity = 1e-4, .angular_frequency = 300};
 constexpr double cone_angle = 0.02, cone_indentation = 1e-6;
 
-// Composite Gauss–Legendre with six points a panel.
+// Composite Gauss–Legendre rule with six points per panel.
 double gauss(const std::function<double(double)>& f, double low, double high, int panels) {
   const std::array<double, 3> node{0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   const std::array<double, 3> weight{0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
@@ -54,8 +54,8 @@ double bisect(const std::function<double(double)>& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-// Height of a point of the body at distance z0 from the surface, and where it is along it; angle =
-// ωt.
+// Height of a point of the body at the distance z0 from the surface, and its position along the
+// surface; angle = ωt.
 double height(double level, double angle) { return -level + 3e-7 * std::cos(angle); }
 double position(const EqualFrequency& motion, double angle) {
   return motion.tangential_amplitude * std::cos(angle + motion.phase);
@@ -71,8 +71,8 @@ double distance_on_path(double level, const Motion& motion) {
   return position(motion, bisect(above, -pi, 0)) - position(motion, bisect(above, 0, pi));
 }
 
-// W of the engine, which is exact for straight steps: two numbers of them, and what they tend to at
-// second order.
+// W of the engine, which is exact for straight steps, extrapolated at second order from two numbers
+// of steps.
 double work_of_engine(const ContactLaw& law, double indentation, const Oscillation& motion) {
   const double coarse = trajectory_damping(law, sample(motion, indentation, 4000)).work_per_cycle;
   const double fine = trajectory_damping(law, sample(motion, indentation, 8000)).work_per_cycle;
@@ -125,7 +125,7 @@ TEST_CASE(
     "[paper]") {
   const ElasticBody first{2e9, 0.3}, second{7e9, 0.45};
   const double composite = Material::of_bodies(first, second).tangential_modulus;
-  // Cerruti: u_x = F/(2πGr)[(1 − ν) + ν cos²φ], meant over the direction.
+  // Cerruti: u_x = F/(2πGr)[(1 − ν) + ν cos²φ], averaged over the direction.
   const auto mean = [&](const ElasticBody& body) {
     return gauss(
                [&](double angle) {
@@ -135,7 +135,7 @@ TEST_CASE(
            pi / (2 * pi * body.shear());
   };
   CHECK(composite == Approx(1 / (pi * (mean(first) + mean(second)))).epsilon(1e-12));
-  // Springs of G*Δx over the contact's diameter: K_t = 2G*a, and the engine's F_x for a small
+  // Springs of G*Δx over the diameter of the contact: K_t = 2G*a, and F_x of the engine for a small
   // shift.
   const IndenterLaw law = cone();
   const double shift = 1e-9;
@@ -218,8 +218,8 @@ TEST_CASE("Eq (9): only springs between −u_z and u_z let go", "[paper]") {
     CHECK(cf::intermittent_contact(level * amplitude, -amplitude) == inside);
     CHECK((cf::released_distance(level * amplitude, equal) != 0) == inside);
     CHECK((cf::released_distance(level * amplitude, drag) != 0) == inside);
-    // A flat punch is all springs at one level: z0 below the surface where it stands at the
-    // indentation −z0.
+    // In a flat punch all springs touch at one depth: at the indentation −z0 it is z0 below the
+    // surface.
     const IndenterLaw punch(flat_punch_profile(1e-4), material);
     const double lost =
         trajectory_damping(punch, sample(Oscillation(equal), -level * amplitude, 400))
@@ -239,7 +239,7 @@ TEST_CASE("Eq (10): the sum of all springs' energies", "[paper]") {
     };
     const double sum =
         cf::work_per_cycle(tangential_modulus, slope, equal.normal_amplitude, released);
-    // z0 = u_z cosψ takes away the roots at the ends of the interval.
+    // z0 = u_z cosψ removes the roots at the ends of the interval.
     const double by_hand = tangential_modulus / slope *
                            gauss(
                                [&](double psi) {
@@ -248,8 +248,8 @@ TEST_CASE("Eq (10): the sum of all springs' energies", "[paper]") {
                                },
                                0, pi, 50);
     CHECK(sum == Approx(by_hand).epsilon(1e-9));
-    // The foundation of springs: order 2 in (a); 5/4 and more in (b), where s² is a root at the
-    // ends.
+    // The foundation of springs has order 2 in (a) and at least 5/4 in (b), where s² is a root at
+    // the ends.
     const double coarse = std::abs(work_of_springs(law, cone_indentation, motion, 100) / sum - 1);
     const double fine = std::abs(work_of_springs(law, cone_indentation, motion, 400) / sum - 1);
     CHECK(fine < 1e-3);
@@ -287,12 +287,12 @@ TEST_CASE("Eq (13): case (b) releases a spring by the way between touching and l
   CHECK(cf::released_distance(level, drag) ==
         Approx(-distance_on_path(level, drag)).epsilon(1e-12));
   // With −u_z the path is that of u_z half a period later: the point touches within (0, π) and
-  // leaves within (π, 2π).
+  // separates within (π, 2π).
   Drag downwards = drag;
   downwards.normal_amplitude = -drag.normal_amplitude;
   const auto above = [&](double angle) { return height(level, angle + pi); };
-  // The tolerance is that of the bisection, 1e-16 of a phase of order 1, over the smallest distance
-  // here, 0.26 of a phase.
+  // The tolerance is the error of the bisection, 1e-16 for a phase of order 1, over the smallest
+  // distance here, 0.26.
   CHECK(cf::released_distance(level, downwards) ==
         Approx(position(drag, bisect(above, pi, 2 * pi)) - position(drag, bisect(above, 0, pi)))
             .epsilon(1e-12));
@@ -306,8 +306,8 @@ TEST_CASE("Eq (14): case (b) for the cone at any amplitude, and its power and γ
       Approx(cf::work_per_cycle(tangential_modulus, slope, drag.normal_amplitude, [](double level) {
         return cf::released_distance(level, drag);
       })).epsilon(1e-9));
-  // ∫s² has a root at its ends, so that the chords of the path leave a term of order 3 after that
-  // of order 2.
+  // ∫s² has a root at its ends, so the chords of the path leave a term of order 3 after that of
+  // order 2.
   CHECK(closed == Approx(work_of_engine(cone(), cone_indentation, drag)).epsilon(1e-9));
   // The two lines of the paper below Eq. (15).
   const double damping = 2 * (pi * pi - 4) * tangential_modulus * drag.normal_amplitude /
@@ -331,8 +331,8 @@ TEST_CASE("Eq (16): the rough surface is the limit of small amplitudes on the ex
           "[paper]") {
   const double decay_length = 2e-7, force = 3.0;
   const ExponentialLaw law(force, decay_length, modulus_ratio);
-  // Ratio of the engine's loss to the law: 1 − 0.42k + …, so that what is missing falls with the
-  // amplitude at first order, and two amplitudes extrapolate to 1.
+  // The ratio of the loss by the engine to Eq. (16) is 1 − 0.42k + …: its deviation is of first
+  // order in the amplitude, and two amplitudes extrapolate to 1.
   const auto ratio = [&](double k) {
     Drag motion = drag;
     motion.normal_amplitude = k * decay_length;
@@ -374,8 +374,8 @@ TEST_CASE("Eq (17): shear stress of a uniform line load is Mindlin's stuck disc,
   motion.phase = pi / 2;
   const OscillatingStress stress(law, indentation, motion);
   const double least = stress.min_contact_radius(), most = stress.contact_radius(angle);
-  // r = least ∓ (…)t⁴ takes away the logarithm on both sides of the least radius; the edge has a
-  // root.
+  // r = least ∓ (…)t⁴ removes the logarithm on both sides of the smallest radius; at the edge there
+  // is a root.
   const auto inner = gauss(
       [&](double t) {
         const double r = least * (1 - std::pow(t, 4));

@@ -11,9 +11,9 @@ namespace {
 
 const Grid2D grid{22, 18, 1.1e-3, 0.9e-3};
 const Material material = Material::of_contact_modulus(3e9, 0.3);
-const ContactSets levels = island_levels(grid);
+const ContactSets levels = island_contact_sets(grid);
 
-// The path begins at the greatest indentation: the first period is not the steady one.
+// The path begins at the maximum indentation, so the first period is not the steady one.
 Trajectory two_periods() {
   const Trajectory from_min = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
   return {[=](double t) { return from_min.indentation(t + 0.5); },
@@ -103,9 +103,9 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
 }
 
 TEST_CASE("A coupled cycle resumed from any of its steps ends in the same bits", "[cycle]") {
-  // Where free, the kernels are made for the window of a contact, and their rounding depends on it;
-  // where periodic, and with no coupling, a step without motion keeps the scale of the tolerance of
-  // the step before.
+  // For a free surface the kernels are made for the window of a contact, and their rounding depends
+  // on it. For a periodic one, and without coupling, a step without motion keeps the tolerance
+  // scale of the step before.
   const Boundary boundary = GENERATE(Boundary::free, Boundary::periodic);
   const Grid2D cells{14, 12, 1.2e-3, 1e-3};
   const Surface surface = elliptic_paraboloid_surface(cells, 12e-3, 6e-3, off_grid_center(cells));

@@ -11,9 +11,9 @@
 
 #include "damping/phase_quadrature.hpp"
 
-// The loss of a slow tangential motion, W = 2(v/ω)²[2∫θK_t dθ − π²K_t(δ − u_z)], from K of contacts
-// that know nothing of each other, with K_t = (G*/E*)K. Cells enter one at a time, so that K is a
-// staircase, and a loss over less than many of its steps is that of the parabola through them.
+// The loss of a slow tangential motion, W = 2(v/ω)²[2∫θK_t dθ − π²K_t(δ − u_z)], from K of
+// independently solved contacts, with K_t = (G*/E*)K. Cells enter one at a time, so K is a
+// staircase; over few of its steps the loss is that of the parabola through them.
 namespace salebra {
 
 /// W of a parabola through K at equal angles of a window, with its standard error, J.
@@ -21,7 +21,7 @@ struct WorkOfParabola {
   double work = 0, error = 0;
 };
 
-/// K of contacts at equal angles of a window, each pressed from nothing.
+/// K of contacts at equal angles of a window, each solved without an initial guess.
 inline Eigen::VectorXd separate_stiffnesses(const Surface& surface, double contact_modulus,
                                             double center, double half, int nodes,
                                             Boundary boundary = Boundary::periodic) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders on a spring: stick–slip, what suppresses it, and the averaged equation.
+// Sliders on a spring: stick–slip, its suppression, and the averaged equation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -20,8 +20,7 @@ constexpr double friction = 0.3;
 constexpr double omega = 2 * pi * 20e3;
 constexpr OperatingPoint load = at_force(0.02);
 
-// The contact of docs/howto/stick_slip.md, and a sphere whose contact opens in the larger of the
-// motions.
+// The contact of docs/howto/stick_slip.md, and a sphere whose contact opens in the larger motions.
 const ExponentialLaw rough(0.02, 30e-9, ratio);
 const PowerLaw sphere(1e9, 1.5, ratio);
 
@@ -38,13 +37,13 @@ Slider slider_of(double mass, double slowness, double velocity, double support, 
 
 TEST_CASE("A slider with falling friction on a rigid contact has the cycle of its closed form",
           "[slider]") {
-  // Without oscillation T = μF while it slides. With e = x − Vt less its value in steady sliding, e
-  // = (bV − μF)/k there, a slip obeys m e'' − b e' + k e = 0. It begins where the spring has
-  // reached μF at rest, −k(x − Vt) = μF: e = −bV/k, e' = −V. It grows, since b > 0, until e' = −V
-  // again; from there the slider sticks and e falls by V t to −bV/k, where the next slip begins.
-  // The length of slip is the root of e' = −V.
+  // Without oscillation T = μF during slip. With e = x − Vt minus its value in steady sliding, (bV
+  // − μF)/k, a slip obeys m e'' − b e' + k e = 0. It begins when the spring has reached μF at rest,
+  // −k(x − Vt) = μF: e = −bV/k, e' = −V. It grows, since b > 0, until e' = −V again; then the
+  // slider sticks and e falls by V t to −bV/k, where the next slip begins. The duration of slip is
+  // the root of e' = −V.
   const Slider slider{.mass = 0.01, .spring_stiffness = 1000, .velocity = 5e-5, .falling_slope = 1};
-  const double limit = friction * load.force;
+  const double limit = friction * load.value;
   const double growth = slider.falling_slope / (2 * slider.mass);
   const double frequency = std::sqrt(slider.spring_stiffness / slider.mass - growth * growth);
   const double begin = -slider.falling_slope * slider.velocity / slider.spring_stiffness;
@@ -65,7 +64,7 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
     }
     return low;
   };
-  // tan(ω₁t) of the turning points, first the least and half a turn later the greatest e.
+  // tan(ω₁t) at the turning points: first the minimum of e, half a turn later the maximum.
   const double turn =
       std::atan2(-(growth * begin + frequency * sine), growth * sine - frequency * begin);
   const double first = (turn < 0 ? turn + pi : turn) / frequency, second = first + pi / frequency;
@@ -77,22 +76,22 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
   const SliderMotion averaged = averaged_slider_motion(rough, load, none, slider, friction);
   REQUIRE(averaged.converged);
   CHECK(averaged.state == SliderState::stick_slip);
-  // Turning points by parabolas through samples 2π/256 apart are off by some 1e-8 of the range, and
-  // the period by 1e-7.
+  // Turning points by parabolas through samples 2π/256 apart have errors of some 1e-8 of the range,
+  // and the period of 1e-7.
   CHECK(averaged.slider_amplitude == Approx(amplitude).epsilon(1e-7));
   CHECK(averaged.slider_period == Approx(slip + stick).epsilon(1e-6));
   CHECK(averaged.max_spring_force == Approx(limit - slider.falling_slope * slider.velocity -
                                             slider.spring_stiffness * offset(first))
                                          .epsilon(1e-8));
-  // One of 260 whole samples may be missing in the means.
+  // The means may miss one of 260 samples.
   CHECK(averaged.stuck_fraction == Approx(stick / (slip + stick)).epsilon(4e-3));
 
-  // The full equation, whose contact is elastic: off in proportion to the way μl/g on which the
-  // contact sticks elastically, 4 % of the amplitude for l = 30 nm. Its share in the difference
+  // The full equation has an elastic contact: its difference is proportional to the distance μl/g
+  // over which the contact sticks elastically, 4 % of the amplitude for l = 30 nm. The factor
   // depends on the phase in which the contact swings when slip begins.
   for (const double decay_length : {32e-9, 16e-9, 8e-9}) {
     CAPTURE(decay_length);
-    const ExponentialLaw law(load.force, decay_length, ratio);
+    const ExponentialLaw law(load.value, decay_length, ratio);
     const SliderMotion full = slider_motion(law, load, none, slider, friction);
     REQUIRE(full.converged);
     CHECK(full.state == SliderState::stick_slip);
@@ -104,12 +103,12 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
 
 TEST_CASE("Where δ is least the state of a sliding contact is its position and velocity",
           "[slider]") {
-  // What slider_stability() rests on: a run of many periods goes on as one that begins with all
-  // levels at their limit.
+  // slider_stability() relies on this: a run of many periods continues like one that begins with
+  // all springs at their limit.
   const Slider slider = slider_of(0.002, 40, 4e-5, 0, 0.5);
   const detail::SliderContact contact{rough, 0, 3e-9, omega, friction};
   detail::SliderEquation whole(contact, slider, 32), restarted(contact, slider, 32);
-  whole.begin(-0.99 * friction * load.force / slider.spring_stiffness, 1e-5);
+  whole.begin(-0.99 * friction * load.value / slider.spring_stiffness, 1e-5);
   for (int i = 0; i < 60; ++i) {
     whole.advance();
     REQUIRE(whole.min_velocity() > 0);
@@ -121,14 +120,14 @@ TEST_CASE("Where δ is least the state of a sliding contact is its position and 
   CHECK(restarted.offset() - offset == Approx(whole.offset() - offset).epsilon(1e-6));
   CHECK(restarted.relative_velocity() - velocity ==
         Approx(whole.relative_velocity() - velocity).epsilon(1e-6));
-  // Nothing of that holds while it sticks.
-  whole.begin(-0.5 * friction * load.force / slider.spring_stiffness, -slider.velocity);
+  // This does not hold while the slider sticks.
+  whole.begin(-0.5 * friction * load.value / slider.spring_stiffness, -slider.velocity);
   whole.advance();
   CHECK(std::abs(whole.tangential_force()) < 0.99 * whole.slid_force());
 }
 
 TEST_CASE("Steps of a slider are of second order, through stick and slip", "[slider]") {
-  // Sticks, opens or slides, in one or two swings of the slider.
+  // The slider sticks, opens or slides, in one or two of its swings.
   struct Run {
     const ContactLaw* law;
     double amplitude, mass, velocity;
@@ -148,8 +147,8 @@ TEST_CASE("Steps of a slider are of second order, through stick and slip", "[sli
     };
     const double exact = end(2048);
     const double coarse = end(16) - exact, fine = end(128) - exact;
-    // Eight times as many: 64 at second order, 8 at first. Events that fall on an end of a step for
-    // one number and not for another make it uneven.
+    // Eight times as many steps: the error falls 64 times at second order, 8 times at first. It is
+    // uneven, because events fall on the end of a step for one number of steps and not for another.
     CHECK(std::abs(coarse / fine) > 30);
     // The scale of the motion is V√(m/k).
     CHECK(std::abs(fine) < 1e-3 * slider.velocity / (omega / 30));
@@ -171,14 +170,15 @@ TEST_CASE("The energies of a slider balance", "[slider]") {
     const SliderMotion motion = slider_motion(rough, load, normal, slider, friction, options);
     REQUIRE(motion.converged);
     CHECK(motion.state == run.state);
-    // The trapezoidal rule over steps of 2π/64, in a balance where T and ẋ vary by some per cent.
+    // The trapezoidal rule over steps of 2π/64, in a balance in which T and ẋ vary by some per
+    // cent.
     CHECK(motion.energy_error < 1e-5);
     CHECK(motion.contact_power > 0);
     CHECK(motion.support_power >= 0);
     CHECK(motion.falling_slope_power >=
           slider.falling_slope * slider.velocity * slider.velocity * (1 - 1e-3));
     CHECK((motion.stuck_fraction > 0) == (run.state == SliderState::stick_slip));
-    // The drive's mean force is that of friction, less its falling part.
+    // The mean force of the drive is that of friction minus its falling part.
     CHECK(motion.drive_power / slider.velocity ==
           Approx(motion.mean_tangential_force - slider.falling_slope * slider.velocity)
               .epsilon(2e-3));
@@ -190,7 +190,7 @@ TEST_CASE("The energies of a slider balance", "[slider]") {
 }
 
 TEST_CASE("The full equation of a slider tends to the averaged one in first order", "[slider]") {
-  // k ∝ ε, m ∝ 1/ε: the averaged equation is the same in the time εt and the length εx, and
+  // k ∝ ε, m ∝ 1/ε: the averaged equation is the same in the time εt and the length εx, while
   // √(k/m)/ω and K_t/(mω²) fall with ε.
   std::vector<double> amplitudes, forces;
   for (const double scale : {1., 0.5, 0.25}) {
@@ -209,8 +209,8 @@ TEST_CASE("The full equation of a slider tends to the averaged one in first orde
     amplitudes.push_back(full.slider_amplitude / averaged.slider_amplitude - 1);
     forces.push_back(full.mean_tangential_force / averaged.mean_tangential_force - 1);
   }
-  // Twice for order 1; 1.88 and 1.93 for the amplitudes, which have 5 % of second order at ε = 1,
-  // and errors of steps of 1e-4.
+  // The ratio is 2 at order 1. It is 1.88 and 1.93 for the amplitudes, which have 5 % of second
+  // order at ε = 1, and step errors of 1e-4.
   CHECK(std::abs(amplitudes[0]) < 0.1);
   for (std::size_t i = 1; i < amplitudes.size(); ++i) {
     CHECK(amplitudes[i - 1] / amplitudes[i] == Approx(2).margin(0.2));
@@ -233,10 +233,10 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
       {&rough, load, 0.01, 50, 20e-6, 0, 3, 50e-9},
       {&rough, load, 0.01, 15, 50e-6, 0.2, 1, 50e-9},
       {&rough, load, 0.01, 250, 1e-3, 0, 2, 50e-9},
-      {&sphere, {0.2}, 0.001, 50, 3e-3, 0.2, 1, 400e-9},
-      {&sphere, {0.2}, 0.001, 20, 20e-3, 0, 0.5, 1e-6},
-      {&sphere, {0.2}, 0.01, 50, 3e-3, 0.2, 1, 400e-9},
-      {&sphere, {0.2}, 0.003, 50, 20e-3, 0, 0.5, 1e-6},
+      {&sphere, at_force(0.2), 0.001, 50, 3e-3, 0.2, 1, 400e-9},
+      {&sphere, at_force(0.2), 0.001, 20, 20e-3, 0, 0.5, 1e-6},
+      {&sphere, at_force(0.2), 0.01, 50, 3e-3, 0.2, 1, 400e-9},
+      {&sphere, at_force(0.2), 0.003, 50, 20e-3, 0, 0.5, 1e-6},
   };
   int number = 0;
   for (const Case& one : cases) {
@@ -244,15 +244,16 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
     const Slider slider = slider_of(one.mass, one.slowness, one.velocity, one.support, one.slope);
     const SliderThreshold threshold =
         threshold_amplitude(*one.law, one.point, {one.largest, omega}, slider, friction);
-    // A thousandth for the steps of the full equation.
+    // A thousandth is allowed for the steps of the full equation.
     CHECK(std::abs(threshold.linear_estimate - threshold.value) <
           threshold.linear_estimate_error + 1e-3 * threshold.value);
-    // The estimate is that of dT̄/dv.
+    // The estimate is the threshold of dT̄/dv.
     CHECK(steady_sliding(*one.law, one.point, Drag{threshold.linear_estimate, one.velocity, omega},
                          friction)
               .sliding_damping == Approx(one.slope - one.support).epsilon(1e-6));
     if (one.mass > 0.001) continue;
-    // Followed in time: what is a tenth below grows out of sliding, what is a tenth above dies out.
+    // Simulated in time: a tenth below the threshold sliding breaks down, a tenth above
+    // disturbances decay.
     SliderOptions options;
     options.start = SliderStart::sliding;
     options.tolerance = 0.1;
@@ -282,8 +283,8 @@ TEST_CASE("A threshold over frequency is that over amplitude, read the other way
   CHECK(std::isnan(threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).value));
   CHECK(std::isnan(
       threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).linear_estimate));
-  // Where the estimate is reached below four natural frequencies, the range has none, and how far it
-  // would move is not known either. The full equation has its threshold further up.
+  // If the estimate is reached below four natural frequencies, it lies outside the range, and its
+  // error is unknown. The full equation has its threshold further up.
   const SliderThreshold below =
       threshold_angular_frequency(rough, load, {200e-9, 10 * omega}, slider, friction);
   CHECK(std::isnan(below.linear_estimate));
@@ -311,8 +312,8 @@ TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averag
                      averaged = averaged_slider_motion(table, load, normal, slider, friction);
   CHECK(full.state == SliderState::steady);
   CHECK(averaged.state == SliderState::steady);
-  // Both are off by less than K_t/(mω²) = 0.0016, by which the mass yields. What lies below the
-  // table, 3e-4 of the force, slips by the law's G*/E* instead of its K_t/K.
+  // Both are off by less than K_t/(mω²) = 0.0016, by which the mass yields. The springs below the
+  // table, with 3e-4 of the force, slip by the law's G*/E* instead of its K_t/K.
   CHECK(full.mean_tangential_force == Approx(averaged.mean_tangential_force).epsilon(1e-3));
   CHECK(averaged.mean_tangential_force ==
         Approx(steady_sliding(table, load, Drag{3e-9, slider.velocity, omega}, friction)
@@ -321,7 +322,7 @@ TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averag
 }
 
 TEST_CASE("A slider that holds its mean force has no largest oscillation", "[slider]") {
-  // l ln 10⁴ = 276 nm is the largest one about an indentation that is held.
+  // l ln 10⁴ = 276 nm is the largest amplitude about a held indentation.
   const Slider slider{.mass = 0.01, .spring_stiffness = 1000, .velocity = 5e-5, .falling_slope = 1};
   const NormalOscillation large{300e-9, omega};
   CHECK_THROWS_WITH(slider_stability(rough, load, large, slider, friction),
@@ -367,7 +368,7 @@ TEST_CASE("Bad input of a slider is named", "[slider]") {
   CHECK_THROWS_WITH(slider_motion(rough, load, {1e-9, omega}, good, friction, options),
                     Catch::StartsWith("steps: 8"));
   CHECK_THROWS_WITH(threshold_amplitude(rough, load, {1e-8, omega}, {0.01, 1000, 5e-5}, friction),
-                    Catch::StartsWith("falling_slope: 0 N s/m must be above"));
+                    Catch::StartsWith("falling_slope: 0 N s/m must exceed"));
   SliderOptions stopped;
   stopped.on_progress = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(slider_motion(rough, load, {1e-9, omega}, good, friction, stopped), Interrupted);
@@ -376,14 +377,14 @@ TEST_CASE("Bad input of a slider is named", "[slider]") {
 TEST_CASE("A slider that takes too many steps is refused, and any other can be stopped",
           "[slider]") {
   const NormalOscillation normal{2e-9, omega};
-  // A spring so soft that the drive loads it for hours.
+  // The spring is so soft that the drive loads it for hours.
   Slider soft = slider_of(0.01, 100, 5e-5, 0, 0);
   soft.spring_stiffness *= 1e-9;
   CHECK_THROWS_WITH(slider_motion(rough, load, normal, soft, friction),
                     Catch::Contains("steps: ") && Catch::Contains("needed in a slow cycle"));
   CHECK_THROWS_WITH(averaged_slider_motion(rough, load, normal, soft, friction),
                     Catch::Contains("needed in a slow cycle"));
-  // A mass so light that the contact swings a million times in a period of the oscillation.
+  // The mass is so light that the contact swings a million times in a period of the oscillation.
   const double stiffness = rough.tangential_stiffness(0);
   const auto of_resonances = [&](double count) {
     return slider_of(stiffness / std::pow(count * omega, 2), 100, 5e-5, 0, 0);

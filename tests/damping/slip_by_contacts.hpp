@@ -12,8 +12,8 @@
 
 namespace salebra {
 
-/// F at `intervals` + 1 indentations within the oscillation and twice as many from there to first touch,
-/// dense below the oscillation: a law without an interpolated stiffness.
+/// F at `intervals` + 1 indentations within the oscillation and at twice as many from there to
+/// first touch, dense below the oscillation: a law without an interpolated stiffness.
 struct DenseForces {
   std::vector<double> level, force;  // from the highest to the lowest
   double mean = 0;                   // indentation
@@ -46,8 +46,8 @@ inline DenseForces dense_forces(const Surface& surface, const Material& material
   return dense;
 }
 
-/// W with slip without surface_damping(), K_t = (G*/E*)K: −∫K_t w' dζ by the mean K between
-/// contacts and the loss w of one spring. With 24 intervals good to 0.5 %.
+/// W with slip without surface_damping(), K_t = (G*/E*)K: −∫K_t w' dζ from the mean K between
+/// contacts and the loss w of one spring. Accurate to 0.5 % with 24 intervals.
 inline double work_with_slip_by_contacts(const DenseForces& dense, const Material& material,
                                          const Oscillation& motion, double friction,
                                          double excursion) {

@@ -6,12 +6,12 @@
 
 namespace salebra_test {
 
-/// Brute force, the second route to every number of damping/: the elastic foundation of Fig. 1
-/// spring by spring. One spring stands at the middle of each of `levels` equal steps of indentation
-/// from `lowest` to `highest`, with the tangential stiffness that K_t gains over that step; what
-/// lies below `lowest` is one spring that is always in contact. Between two points of the
-/// trajectory the motion is straight, and touching and release are placed exactly. Second order in
-/// the step of the levels where K_t' is smooth.
+/// The independent second method for every number of damping/: simulates the elastic foundation of
+/// Fig. 1 spring by spring. One spring lies at the middle of each of `levels` equal steps of
+/// indentation from `lowest` to `highest`, with the tangential stiffness that K_t gains over that
+/// step; the springs below `lowest` are one spring that is always in contact. Between two points of
+/// the trajectory the motion is straight, and touch and release are placed exactly. Second order in
+/// the depth step where K_t' is smooth.
 class SpringFoundation {
  public:
   SpringFoundation(const salebra::ContactLaw& law, double lowest, double highest, int levels)
@@ -53,7 +53,7 @@ class SpringFoundation {
     indentation_ = indentation, x_ = x;
   }
 
-  double released() const { return released_; }  ///< energy lost by springs that let go, J
+  double released() const { return released_; }  ///< energy lost by springs that separate, J
   double work() const { return work_; }          ///< ∫F_x dx, J
   double force() const {                         ///< F_x, N
     double force = core_ * (x_ - core_origin_);

@@ -26,13 +26,13 @@ struct SlidingCase {
   const ContactLaw* law;
   double middle, amplitude, speed;
 };
-// The last opens in every period.
+// The last contact opens in every period.
 const SlidingCase sliding_cases[] = {{&cone, 1e-6, 4e-7, 0.3},
                                      {&rough, 0, 2e-7, 0.03},
                                      {&rough, 1e-7, 5e-8, 0.8},
                                      {&cone, 2e-7, 5e-7, 0.2}};
 
-// Mean tangential force by simulation of the springs on a path of straight steps.
+// Mean tangential force from the springs simulated on a path of straight steps.
 double simulated_force(const ContactLaw& law, double middle, const Drag& motion, double friction,
                        int steps) {
   const SampledMotion path = sample(motion, middle, steps);
@@ -43,9 +43,9 @@ double simulated_force(const ContactLaw& law, double middle, const Drag& motion,
 }  // namespace
 
 TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]") {
-  // A punch that stays closed has F = Kδ, so that μ_macro/μ = 1 − (u_z/δ0) R(v/v_c). R was computed
-  // by another program, in five digits; it is within 0.015 of ¾(r − 1)² + ¼(r − 1)⁴, r = v/v_c, the
-  // fit of Popov et al. (2017) to theirs.
+  // A punch that stays closed has F = Kδ, so μ_macro/μ = 1 − (u_z/δ0) R(v/v_c). Another program
+  // computed R, in five digits; it is within 0.015 of ¾(r − 1)² + ¼(r − 1)⁴, r = v/v_c, which Popov
+  // et al. (2017) fitted to their results.
   const PowerLaw punch(2e6, 1, ratio);
   const double middle = 1e-6, amplitude = 3e-7, friction = 0.4;
   const double critical = friction / ratio * amplitude * omega;
@@ -80,8 +80,7 @@ TEST_CASE("At low speed sliding has the damping constant of the stick during a c
   const double z = amplitude / decay_length;
   double integral = pi * pi / 2 * std::cyl_bessel_i(0., z);
   for (int k = 1; k < 30; k += 2) integral -= 4 * std::cyl_bessel_i(double(k), z) / (double(k) * k);
-  // δ runs to its largest value at θ = 0, whose cosine is +1: the odd terms reduce the weight
-  // there.
+  // δ has its maximum at θ = 0, where the cosine is +1, so the odd terms reduce the weight there.
   const double stiffness = ratio * 2 / decay_length;
   const double slope = 2 / (pi * omega) * stiffness * integral;
   const SteadySliding slow = at(1e-3);
@@ -90,8 +89,8 @@ TEST_CASE("At low speed sliding has the damping constant of the stick during a c
         Approx(slope - pi * stiffness * std::exp(-z) / omega).epsilon(1e-8));
   CHECK(slow.static_friction_coefficient * slow.mean_force ==
         Approx(friction * 2 * std::exp(-z)).epsilon(1e-12));
-  // What is left goes like v^{3/2}, so that it falls 8 times when v falls 4 times, up to a part of
-  // order v^{1/2} of itself.
+  // The rest is proportional to v^{3/2}: it falls 8 times when v falls 4 times, up to a relative
+  // term of order v^{1/2}.
   const auto rest = [&](double part) {
     const SteadySliding sliding = at(part);
     const double velocity = part * sliding.critical_velocity;
@@ -103,7 +102,7 @@ TEST_CASE("At low speed sliding has the damping constant of the stick during a c
     CHECK(std::log(rest(part) / rest(part / 4)) / std::log(4.) ==
           Approx(1.5).margin(0.1 * std::sqrt(part / 1e-3) * 0.1 + 2e-3));
   }
-  // From v_c on nothing sticks: μ times the mean of the normal force, which is F·I_0.
+  // From v_c on nothing sticks, and the force is μ times the mean normal force F·I_0.
   for (const double part : {1., 1.0000001, 5.})
     CHECK(at(part).mean_tangential_force ==
           Approx(friction * 2 * std::cyl_bessel_i(0., z)).epsilon(1e-10));
@@ -127,11 +126,11 @@ TEST_CASE("The damping of a sliding contact is the slope of its friction over ve
     const double damping = steady_sliding(*one.law, at_indentation(one.middle),
                                           {one.amplitude, one.speed * critical, omega}, friction)
                                .sliding_damping;
-    // Central differences are off by the square of the step.
+    // Central differences have an error of the square of the step.
     CHECK(slope(1e-3) == Approx(damping).epsilon(1e-5));
     CHECK((slope(0.04) - damping) / (slope(0.02) - damping) == Approx(4).margin(0.1));
   }
-  // Γ as v → 0; nothing from v_c on. A list has the same values.
+  // The damping is Γ as v → 0, and 0 from v_c on. A list of velocities gives the same values.
   const double amplitude = 5e-8, friction = 0.25, critical = friction / ratio * amplitude * omega;
   const double velocities[] = {1e-8 * critical, 0.4 * critical, 2 * critical};
   const auto list = steady_sliding(rough, at_force(3), {amplitude, omega}, velocities, friction);
@@ -155,8 +154,8 @@ TEST_CASE("Steady sliding is what the springs do, with second order in their ste
     const double coarse = simulated_force(*one.law, one.middle, motion, friction, 400);
     const double fine = simulated_force(*one.law, one.middle, motion, friction, 3200);
     const double force = sliding.mean_tangential_force;
-    // Steps 8 times smaller are 64 times more exact, 8 times at first order; where slip begins and
-    // ends lies somewhere within a step, which makes the error uneven.
+    // Steps 8 times smaller are 64 times more accurate at second order, 8 times at first. Slip
+    // begins and ends somewhere within a step, which makes the error uneven.
     CHECK(std::abs(fine / force - 1) < 1e-6);
     CHECK(std::abs(fine - force) < std::abs(coarse - force) / 12);
     const TrajectoryDamping path = trajectory_damping(*one.law, sample(motion, one.middle, 3200),
@@ -179,7 +178,7 @@ TEST_CASE("One period from the slid state is what a long way leads to", "[slidin
             ? std::unique_ptr<ContactLaw>(std::make_unique<PowerLaw>(1e9, uniform(1.2, 3), ratio))
             : std::make_unique<ExponentialLaw>(2, uniform(1e-7, 4e-7), ratio);
     const double friction = uniform(0.1, 1);
-    // Any closed path in δ, and one in x that may turn back while it drifts either way.
+    // Any closed path in δ, and a path in x that may turn back while it drifts in either direction.
     const double drift = uniform(0.2e-6, 2e-6) * (trial % 3 == 0 ? -1 : 1),
                  swing = uniform(0, 2e-6);
     const double first = uniform(0, 2 * pi), second = uniform(0, 2 * pi);
@@ -197,8 +196,8 @@ TEST_CASE("One period from the slid state is what a long way leads to", "[slidin
     }
     const TrajectoryDamping steady =
         trajectory_damping(*law, path, {.friction_coefficient = friction});
-    // From rest, until the deepest level that matters has been dragged along: those of exponential
-    // laws below 30 l carry 1e-13 of the force.
+    // Starts from rest and follows the path until the deepest relevant spring has been dragged
+    // along. Springs of exponential laws below 30 l carry 1e-13 of the force.
     const double lowest = std::ranges::min(path.indentation),
                  highest = std::ranges::max(path.indentation);
     const double depth = trial % 2 == 0 ? highest : highest + 32 * 4e-7;
@@ -221,7 +220,7 @@ TEST_CASE("One period from the slid state is what a long way leads to", "[slidin
 }
 
 TEST_CASE("Levels below a table slide along as one", "[sliding]") {
-  // The table begins at a tenth of the force; what lies below carries the rest in both.
+  // The table begins at a tenth of the force; the springs below carry the rest in both.
   const double decay_length = 1e-7;
   const ExponentialLaw whole(1, decay_length, ratio);
   ForceCurve curve;
@@ -238,7 +237,7 @@ TEST_CASE("Levels below a table slide along as one", "[sliding]") {
   const SampledMotion path = sample(Drag{5e-8, 1e-3, omega}, 0, 500);
   const TrajectoryDamping expected = trajectory_damping(whole, path, {.friction_coefficient = 0.3});
   const TrajectoryDamping found = trajectory_damping(table, path, {.friction_coefficient = 0.3});
-  // Cubics through 87 samples in each l.
+  // The table has cubics through 87 samples in each l.
   CHECK(found.work_per_cycle == Approx(expected.work_per_cycle).epsilon(1e-6));
   CHECK(found.slip_work == Approx(expected.slip_work).epsilon(1e-6));
   CHECK(found.tangential_force[250] == Approx(expected.tangential_force[250]).epsilon(1e-6));
@@ -252,20 +251,20 @@ TEST_CASE("Levels below a table slide along as one", "[sliding]") {
     contact.move_to(path.indentation[k], path.displacement[k] - path.displacement[0]);
   CHECK(contact.tangential_force() == Approx(force).epsilon(1e-9));
   CHECK(contact.external_work() == Approx(contact.dissipated()).epsilon(1e-9));
-  // Backwards it is not known what they do.
+  // For backward motion their slip is unknown.
   CHECK_THROWS_AS(contact.move_to(-5e-8, -1e-6), InvalidInput);
 }
 
 TEST_CASE("A drag far too short for sliding to begin has its steady state all the same",
           "[sliding]") {
-  // The drag of 0.5 nm a period would take 10⁵ periods to stretch the springs that never open to
+  // A drag of 0.5 nm per period would need 10⁵ periods to stretch the springs that never open to
   // their limit at μ = 100.
   const ExponentialLaw law(1, 1e-7, 1.4 / 1.7);
   const Drag motion{2e-8, 1e-5, 2 * pi * 20e3};
   const auto followed =
       trajectory_damping(law, sample(motion, 0, 2000), {.friction_coefficient = 100});
   const auto slid = steady_sliding(law, at_indentation(0), motion, 100);
-  // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
+  // 2000 straight steps; slip begins at the phase v/v_c = 3e-5 rad, less than one step.
   CHECK(followed.work_per_cycle == Approx(slid.relaxation_work + slid.slip_work).epsilon(1e-4));
 }
 
@@ -279,7 +278,7 @@ TEST_CASE("Bad input of steady sliding is named", "[sliding]") {
   CHECK_THROWS_WITH(at(-0.1, 1), Catch::StartsWith("friction_coefficient: -0.1"));
   CHECK_THROWS_WITH(at(INFINITY, 1), Catch::StartsWith("friction_coefficient: inf"));
   CHECK_THROWS_AS(at(0.3, 1, -1), InvalidInput);
-  // Without friction nothing resists; without oscillation it is Coulomb's law.
+  // Without friction nothing resists, and without oscillation Coulomb's law holds.
   CHECK(at(0, 1).mean_tangential_force == 0);
   const SteadySliding still = at(0.3, 1e-9, 0);
   CHECK(still.friction_coefficient == Approx(0.3).epsilon(1e-12));

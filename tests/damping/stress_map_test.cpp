@@ -20,8 +20,8 @@ const EqualFrequency quarter{.normal_amplitude = amplitude,
                              .phase = pi / 2,
                              .angular_frequency = 1};
 
-// Gauss–Legendre with six points on panels that shrink towards both ends by halving: for logarithms
-// and roots there.
+// Gauss–Legendre rule with six points on panels that halve towards both ends, for logarithms and
+// roots there.
 double graded(const std::function<double(double)>& f, double low, double high) {
   const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
@@ -57,7 +57,7 @@ TEST_CASE("Eq (17): shear stress carries the tangential force", "[stress]") {
       CHECK(stress.tangential_force(angle) == 0);
       continue;
     }
-    // r = a sin ψ takes away the root at the edge; the logarithm sits at the least contact radius.
+    // r = a sin ψ removes the root at the edge; the logarithm is at the smallest contact radius.
     auto ring = [&](double psi) {
       const double r = a * std::sin(psi);
       return 2 * pi * r * stress.shear(angle, r) * a * std::cos(psi);
@@ -110,7 +110,7 @@ TEST_CASE("Fig. 4: the retreating edge carries a square root of −2u_x sinθ", 
     const double root = std::sqrt((a - r) * (a + r));
     CHECK(stress.shear(angle, r) * root * pi / tangential_modulus ==
           Approx(-2 * stroke * std::sin(angle)).epsilon(2e-4));
-    // No singularity while the contact grows.
+    // There is no singularity while the contact grows.
     CHECK(std::abs(stress.shear(-angle, r) * root * pi / tangential_modulus) < 2e-4 * stroke);
   }
 }

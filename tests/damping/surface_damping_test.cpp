@@ -9,8 +9,8 @@
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/damping/joint.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -71,8 +71,8 @@ SurfaceDampingOptions converged_options() {
   return options;
 }
 
-// Sums of waves whose numbers, directions and phases are fractions of multiples of irrational
-// numbers: none of the generator's surfaces. Rms height 1.
+// Sums of waves whose numbers, directions and phases are fractional parts of multiples of
+// irrational numbers. The generator makes no such surfaces. Rms height 1.
 Field waves(Index points, int seed, double highest, double direction, double spread) {
   const auto fraction = [](double value) { return value - std::floor(value); };
   Field sum = Field::Zero(points, points);
@@ -91,8 +91,8 @@ Field waves(Index points, int seed, double highest, double direction, double spr
   return (sum - sum.mean()) / std::sqrt((sum - sum.mean()).square().mean());
 }
 
-// Turned ridges, peaks and pits of a lognormal surface, plateaux, smooth hills, all of an rms slope
-// of 0.1.
+// Turned ridges, peaks and pits of a lognormal surface, plateaux and smooth hills, all with an rms
+// slope of 0.1.
 Surface other_surface(int seed) {
   constexpr Index points = 64;
   const auto isotropic = [&](double cells, int other = 0) {
@@ -171,8 +171,8 @@ TEST_CASE(
                           << ' ' << result.work_per_cycle_error() / exact.work_per_cycle);
       REQUIRE(result.converged);
       CHECK(std::abs(result.work_per_cycle - exact.work_per_cycle) < result.work_per_cycle_error());
-      // About 700 cells enter on the finer grid: two standard deviations are 8 %, and the
-      // quadrature's weights and K_t may double it.
+      // About 700 cells enter on the finer grid: two standard deviations are 8 %, which the weights
+      // of the quadrature and K_t may double.
       CHECK(result.work_per_cycle_error() < 0.16 * exact.work_per_cycle);
       CHECK(result.damping_constant / exact.damping_constant ==
             Approx(result.work_per_cycle / exact.work_per_cycle));
@@ -180,7 +180,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A surface that slides as a whole loses μF on its way, whatever its K_t is") {
-  // An elongated contact is stiffer along itself than G*/E* of K, and softer across.
+  // An elongated contact has K_t above (G*/E*)K along its length, and below it across.
   constexpr double size = 1e-3, friction = 0.3;
   const Grid2D grid{64, 64, size, size};
   Surface surface{grid, Field(64, 64), false};
@@ -201,7 +201,7 @@ TEST_CASE("A surface that slides as a whole loses μF on its way, whatever its K
     const SurfaceDamping result = surface_damping(surface, material, motion, curve, options)[0];
     INFO(result.stiffness_ratio);
     CHECK(std::abs(result.stiffness_ratio - 1) > 0.03);
-    // Turning points take 4μδ/g of the excursion, below 0.5 %; the amplitude is 1e-3 of δ.
+    // Turning points take 4μδ/g of the excursion, less than 0.5 %; the amplitude is 1e-3 of δ.
     const double way = 2 * pi * motion.drag_velocity / motion.angular_frequency;
     CHECK(result.work_per_cycle == Approx(friction * curve.samples[0].force * way).epsilon(0.01));
   }
@@ -230,14 +230,14 @@ TEST_CASE("The loss of a paraboloid with slip is that of Hertz' law, from no sli
     REQUIRE(result.converged);
     CHECK(std::abs(found - exact.work_per_cycle) < result.work_per_cycle_error());
     // Some 200 cells enter within the oscillation on the finer grid: two standard deviations are
-    // 14 %. Where slip makes most of W it is an integral of forces, which hardly feel the cells.
+    // 14 %. If slip dominates W, it is an integral of forces, which hardly depend on the cells.
     CHECK(result.work_per_cycle_error() < 0.2 * exact.work_per_cycle);
     if (exact.slip_share() > 0.5)
       CHECK(result.work_per_cycle_error() < 0.05 * exact.work_per_cycle);
     CHECK(std::abs(result.slip_work / found - exact.slip_share()) <
           result.work_per_cycle_error() / found);
   };
-  // The contact slides from x = (μ/g)δ on, 7 µm.
+  // The contact slides as a whole from x = (μ/g)δ on, 7 µm.
   for (const double excursion : {0.1e-6, 1e-6, 100e-6})
     compare(Drag{amplitude, excursion / 20 * angular_frequency / (2 * pi), angular_frequency},
             excursion);
@@ -247,7 +247,7 @@ TEST_CASE("The loss of a paraboloid with slip is that of Hertz' law, from no sli
 }
 
 TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid as the law says") {
-  // Where u_z is as large as the indentation the two losses differ by far more than the error.
+  // With u_z as large as the indentation, the two losses differ by far more than the error.
   constexpr double radius = 4e-3, size = 1e-3;
   const double coefficient = 4.0 / 3 * material.contact_modulus * std::sqrt(radius);
   const PowerLaw law(coefficient, 1.5, material.modulus_ratio());
@@ -267,14 +267,14 @@ TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid a
   }
   const double found = works[1] / works[0] - 1, expected = exact[1] / exact[0] - 1;
   REQUIRE(std::abs(expected) > 0.01);
-  // The same cells carry both, so that their scatter falls out but for what enters at the ends of
-  // the two ranges.
+  // The same cells carry both, so their scatter cancels, except for the cells that enter at the
+  // ends of the two ranges.
   CHECK(found == Approx(expected).margin(0.5 * std::abs(expected)));
 }
 
 TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges to") {
-  // Eighteen losses at three amplitudes, of which nine in ten at the least are held; 12 of 18 or
-  // fewer by chance would be one time in 500.
+  // Eighteen losses at three amplitudes. At least nine in ten errors hold; by chance 12 of 18 or
+  // fewer would occur one time in 500.
   Count count;
   for (const std::uint64_t seed : {11, 12, 13}) {
     const Surface surface = rough(48, seed), fine = refined(surface, 4);
@@ -287,14 +287,14 @@ TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges
   }
   CHECK(count.cases >= 16);
   CHECK(count.held >= count.cases * 2 / 3);
-  // An error that is always held because it is huge says nothing. The errors are about 4 times as
-  // large as what the losses miss by; a median of eighteen varies by a half.
+  // An error that always holds because it is huge is useless. The errors are about 4 times the
+  // actual deviations; a median of eighteen varies by a half.
   CHECK(count.median() < 8);
 }
 
 TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is missed by far") {
-  // With the seeds 0 to 119, 99 % hold, and the largest ratio is 1.03. The first six are those in
-  // which forces alone, without the stiffnesses of the contacts, missed by up to 1.6 times.
+  // With the seeds 0 to 119, 99 % hold, and the largest ratio is 1.03. On the first six, forces
+  // alone, without the stiffnesses of the contacts, were off by up to 1.6 errors.
   int held = 0;
   double largest = 0;
   std::vector<double> stated;
@@ -305,7 +305,7 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
     const Drag motion = drag(surface, std::array{0.01, 0.03, 0.1, 0.2}[std::size_t(seed % 4)]);
     const SurfaceDamping result = surface_damping(
         surface, material, motion, curve_of(surface, {pressure}, Boundary::periodic, false))[0];
-    // 33 contacts in place of 17 change it by 0.3 %.
+    // 33 contacts instead of 17 change it by 0.3 %.
     const double converged =
         work_by_contacts(refined(surface, 4), material, pressure, motion, 16, false);
     const double ratio =
@@ -318,14 +318,14 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
     stated.push_back(result.work_per_cycle_error() / result.work_per_cycle);
   }
   CHECK(held >= 7);
-  // 12 % for all 120 seeds.
+  // The median is 12 % for all 120 seeds.
   std::ranges::sort(stated);
   CHECK(stated[stated.size() / 2] < 0.2);
 }
 
 TEST_CASE("Errors of the loss with slip hold, over three decades of the excursion") {
-  // With 80 losses of the seeds 0 to 19, 92 % hold; the largest ratio is 2.0. Cells of half the
-  // size stand for the surface, cells of twice the size give the error.
+  // With 80 losses of the seeds 0 to 19, 92 % hold, and the largest ratio is 2.0. Cells of half the
+  // size serve as the surface, cells of twice the size give the error.
   int held = 0, cases = 0;
   std::vector<double> stated;
   for (const int seed : {0, 1, 2, 3, 4, 5}) {
@@ -359,9 +359,9 @@ TEST_CASE("Errors of the loss with slip hold, over three decades of the excursio
       stated.push_back(result.work_per_cycle_error() / found);
     }
   }
-  // Fewer of 24, of which 92 % hold, by chance one time in 100.
+  // 92 % of 24 hold; fewer than 19 occur by chance one time in 100.
   CHECK(held >= 19);
-  // 8 % for the 80.
+  // The median is 8 % for the 80.
   std::ranges::sort(stated);
   CHECK(stated[stated.size() / 2] < 0.25);
 }
@@ -386,7 +386,7 @@ TEST_CASE("A loss whose error is not smaller is no number, and neither are its p
        {loss.work_per_cycle, loss.damping_constant, loss.relaxation_work, loss.slip_work,
         loss.work_per_cycle_without_slip, loss.damping_constant_without_slip})
     CHECK(std::isnan(number));
-  // The error stays, to say why.
+  // The error stays known, to explain why the loss is unknown.
   CHECK(loss.work_per_cycle_error() == Approx(std::sqrt(0.09 + 1)));
 }
 
@@ -414,8 +414,8 @@ TEST_CASE("Friction leaves the loss without slip as it is, to the bit") {
 }
 
 TEST_CASE("The loss of a joint of a surface has an error that holds, at small forces too") {
-  // On 48 surfaces of twelve kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
-  // at 0.25 μF. With ν = 0 K_t is K.
+  // On 48 surfaces of twelve kinds 98 % hold; the law through 13 forces alone is off by up to 150 %
+  // at 0.25 μF. With ν = 0, K_t is K.
   const Material stuck = Material::of_contact_modulus(1e9, 0);
   constexpr double friction = 0.3;
   int held = 0;
@@ -452,7 +452,7 @@ TEST_CASE("The loss of a joint of a surface has an error that holds, at small fo
 }
 
 TEST_CASE("Steady sliding of a surface has errors that hold, and so do its dampings") {
-  // With ν = 0 K_t is K. Ten numbers of each of two velocities.
+  // With ν = 0, K_t is K. Each of two velocities has ten numbers.
   const Material stuck = Material::of_contact_modulus(1e9, 0);
   constexpr double friction = 0.3;
   int held = 0, all = 0;
@@ -538,8 +538,8 @@ TEST_CASE(
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     REQUIRE(finite[k].converged);
     CHECK(finite[k].window > 100 * motion.normal_amplitude);
-    // The differences are of the first order in u_z/l, 1e-5 over about 0.4, and of the difference
-    // quotient of the limit.
+    // The differences are of first order in u_z/l, 1e-5 over about 0.4, and come also from the
+    // difference quotient of the limit.
     CHECK(finite[k].work_per_cycle == Approx(limit[k].work_per_cycle).epsilon(1e-3));
     CHECK(finite[k].work_per_cycle_error() > 0);
   }
@@ -603,7 +603,7 @@ TEST_CASE("Cells of twice the size give an error too, and their value is that of
   for (std::size_t k = 0; k < halved.size(); ++k) {
     CHECK(coarsened[k].points == points);
     CHECK(coarsened[k].error.cells > 0);
-    // Both hold the same truth, each within its error, at 90 % each.
+    // Both errors include the same true value, each in 90 % of cases.
     CHECK(std::abs(coarsened[k].work_per_cycle - halved[k].work_per_cycle) <
           coarsened[k].work_per_cycle_error() + halved[k].work_per_cycle_error());
   }
@@ -633,8 +633,8 @@ TEST_CASE("A step at the seam has its error, which a surface without a step has 
     of_smooth += smooth[k].error.seam / smooth[k].work_per_cycle;
     of_stepped += stepped[k].error.seam / stepped[k].work_per_cycle;
   }
-  // The step carries the light loads of the tilted surface alone; the window takes a quarter of the
-  // area from either.
+  // On the tilted surface only the step carries the light loads; the window takes a quarter of the
+  // area from both surfaces.
   CHECK(of_stepped > 1.5 * of_smooth);
 }
 
@@ -651,14 +651,14 @@ TEST_CASE("The error of a seam is the change of the loss beyond the scatter of b
   const auto free = surface_damping(surface, material, motion, curve, options);
   int told_apart = 0;
   for (std::size_t k = 0; k < seamed.size(); ++k) {
-    // A wider window adds the chance of spots to the scatter.
+    // A wider window adds the random entry of contact patches to the scatter.
     if (!seamed[k].converged || !free[k].converged || seamed[k].window != motion.normal_amplitude)
       continue;
     const double change = free[k].work_per_cycle - seamed[k].work_per_cycle;
     const double deviation = seamed[k].error.noise / 1.8;  // standard deviations that it states
     const double beyond = change * change - 2 * deviation * deviation;
     // Both are the same numbers in another order. A scatter of a thousandth of the change changes
-    // the result by 1e-6 of it.
+    // the result by 1e-6.
     CHECK(seamed[k].error.seam == Approx(std::sqrt(std::max(0.0, beyond))).epsilon(1e-9));
     if (beyond > 0 && deviation > 1e-3 * std::abs(change)) ++told_apart;
   }
@@ -678,7 +678,7 @@ TEST_CASE("Damping of a surface refuses what it cannot use") {
   SurfaceDampingOptions options;
   options.intervals = 7;
   CHECK_THROWS_WITH(surface_damping(surface, material, motion, curve, options),
-                    "levels: 7 must be 4, 8, 16 or 32");
+                    "intervals: 7 must be 4, 8, 16 or 32");
   options.intervals = 8;
   options.on_progress = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(surface_damping(surface, material, motion, curve, options), Interrupted);
@@ -695,7 +695,8 @@ TEST_CASE("Damping of a surface refuses what it cannot use") {
 }
 
 TEST_CASE("The loss of small amplitudes is that of contacts that know nothing of each other") {
-  // Contacts less than a thousandth of h_rms apart start so well that the start meets the tolerance.
+  // Contacts less than a thousandth of h_rms apart are so close that the start already meets the
+  // tolerance.
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 0.25e-3, .short_cutoff = 64e-6, .rms_height = 1e-6});
@@ -717,7 +718,7 @@ TEST_CASE("The loss of small amplitudes is that of contacts that know nothing of
         // 1.6 stated errors are 2.9 standard deviations: one number in 270 is further off.
         CHECK(std::abs(found[k].work_per_cycle - truth.work) <
               1.6 * std::hypot(found[k].work_per_cycle_error(), 1.8 * truth.error));
-        // Starts that nobody iterates give errors of 5 to 15 times W.
+        // Starts that are never iterated give errors of 5 to 15 times W.
         CHECK(found[k].work_per_cycle_error() < 1.5 * truth.work);
         CHECK(found[k].error.solver < 1e-2 * found[k].work_per_cycle_error());
       }
@@ -737,13 +738,14 @@ TEST_CASE("Forces of contacts that start from each other know nothing of the tol
     const NormalContactState separate =
         press(surface, material.contact_modulus, at_indentation(share * center), options);
     CAPTURE(share, sample.force_correction / separate.force);
-    // Where the sets are the same it is round-off; otherwise cells that hardly carry are missing.
+    // If the contact sets are the same, the difference is round-off; otherwise cells that carry
+    // almost nothing are missing.
     CHECK(std::abs(sample.force / separate.force - 1) < 1e-9);
   }
 }
 
 TEST_CASE("A loss below zero is no result") {
-  // K_t/K that falls as steeply as on no surface makes K_t fall with the indentation.
+  // If K_t/K falls more steeply than on any surface, K_t falls with the indentation.
   const Surface surface = rough(64, 3);
   ForceCurve curve = curve_of(surface, {1.8e6, 2e6, 2.2e6}, Boundary::periodic, false);
   for (std::size_t k = 0; k < 3; ++k)

@@ -22,7 +22,7 @@ struct Point {
   double indentation, x;
 };
 
-// A wild path: turning points at all depths, horizontal and vertical steps among them.
+// A path with turning points at all depths, and with horizontal and vertical steps.
 std::vector<Point> wild_path(double low, double high, double reach, int count) {
   std::mt19937_64 bits(7);
   auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
@@ -37,10 +37,11 @@ std::vector<Point> wild_path(double low, double high, double reach, int count) {
   return path;
 }
 
-// Springs with the friction limit, moved in small substeps: first order in the substep.
+// Springs with a friction limit, moved in small substeps: first order in the substep.
 class FrictionSprings {
  public:
-  FrictionSprings(const ContactLaw& law, double lowest, double highest, int springs, double friction)
+  FrictionSprings(const ContactLaw& law, double lowest, double highest, int springs,
+                  double friction)
       : limit_(friction / law.modulus_ratio()) {
     const double step = (highest - lowest) / springs;
     for (int i = 0; i < springs; ++i)
@@ -63,7 +64,7 @@ class FrictionSprings {
       for (Spring& spring : springs_) {
         const double room = std::max(0.0, limit_ * (indentation_ - spring.spring_depth));
         const double anchor = std::clamp(spring.anchor, x_ - room, x_ + room);
-        // A level that opens keeps its anchor with the indenter; what it loses then is 0.
+        // A spring that opens keeps its anchor with the indenter; it loses nothing then.
         const double before = x_ - spring.anchor, after = x_ - anchor;
         lost_ += 0.5 * spring.stiffness * (before + after) * (anchor - spring.anchor) *
                  (indentation_ > spring.spring_depth ? 1 : 0);
@@ -99,8 +100,8 @@ TEST_CASE("Along any path the stack of turning points is the spring foundation",
   const auto path = wild_path(low, high, reach, 200);
   TangentialContact contact(law, low, high);
   contact.start(low, 0);
-  auto worst = [&](int springs) {
-    salebra_test::SpringFoundation springs(law, low, high, springs);
+  auto worst = [&](int count) {
+    salebra_test::SpringFoundation springs(law, low, high, count);
     springs.start(low, 0);
     contact.start(low, 0);
     double error = 0;
@@ -116,8 +117,8 @@ TEST_CASE("Along any path the stack of turning points is the spring foundation",
     }
     return error;
   };
-  // A step of the path cuts a spring's step of levels at random: first order for the force, and the
-  // constants scatter.
+  // A step of the path divides the depth step of a spring at random: first order for the force,
+  // with constants that scatter.
   const double coarse = worst(500), fine = worst(8000);
   CHECK(fine < 5e-4);
   CHECK(fine < coarse / 4);
@@ -145,7 +146,7 @@ TEST_CASE("What is put in by F_x is stored or lost", "[tangential]") {
       work += step;
       turnover += std::abs(step);
     }
-  // Trapezoidal rule on a smooth force with kinks: (1/400)² and a little.
+  // Trapezoidal rule on a smooth force with kinks: slightly more than (1/400)².
   CHECK(contact.external_work() == Approx(work).margin(2e-5 * turnover));
   CHECK(contact.dissipated() > 0.01 * turnover);
 }
@@ -194,15 +195,15 @@ TEST_CASE("The memory holds one descent, not the past", "[tangential]") {
   };
   CHECK(memory_after(20, 200, 0).first == memory_after(2, 200, 0).first);
   CHECK(memory_after(2, 200, 0).first <= 102);
-  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by
-  // the tolerance at most.
+  // 100 times the steps take 100 times the memory without merging. With merging the memory stays
+  // the same, and W changes by at most the tolerance.
   const auto [merged, merged_loss] = memory_after(2, 20000, 1e-13);
   const auto [kept, kept_loss] = memory_after(2, 20000, 0);
   CHECK(kept > 9000);
   CHECK(merged < kept / 2);
   CHECK(memory_after(2, 80000, 1e-13).first < 1.2 * static_cast<double>(merged));
   CHECK(merged_loss == Approx(kept_loss).epsilon(1e-6));
-  // Two rises with a step in x between them, whose ends lie on one line: nothing may be merged.
+  // Two rises with a step in x between them, whose ends lie on one line, must not be merged.
   auto force_after = [&](double merge_tolerance) {
     TangentialContact contact(law, 1e-7, 1e-6, {.merge_tolerance = merge_tolerance});
     contact.start(1e-7, 0);
@@ -261,7 +262,7 @@ TEST_CASE(
       contact.move_to(indentation, shift);
       return contact.tangential_force();
     };
-    // Only what sticks carries more: dF_x/dx = 2G*c, by central differences, second order in
+    // Only springs that stick carry more: dF_x/dx = 2G*c, by central differences of second order in
     // 1e-4/(1 − part).
     const double stick = (force_at(x + step) - force_at(x - step)) / (2 * step) / (2 * ratio * 1e9);
     CHECK(stick ==
@@ -280,19 +281,19 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   struct Outcome {
     double lost, force;
   };
-  auto springs_with = [&](int springs) {
-    FrictionSprings springs(law, 0, high, springs, friction);
+  auto springs_with = [&](int count) {
+    FrictionSprings springs(law, 0, high, count, friction);
     springs.start(low, 0);
     for (std::size_t i = 1; i < path.size(); ++i)
-      springs.move_to(path[i].indentation, path[i].x, springs / 2);
+      springs.move_to(path[i].indentation, path[i].x, count / 2);
     return Outcome{
         springs.lost() / contact.dissipated() - 1,
         (springs.force() - contact.tangential_force()) / (law.tangential_stiffness(high) * 3e-7)};
   };
   const Outcome coarse = springs_with(200), fine = springs_with(400);
   CHECK(std::abs(fine.force) < 1e-2);
-  // First order in level and substep: what halving both leaves is twice as small, and the
-  // extrapolation to 0 is of second order.
+  // First order in depth step and substep: halving both halves the error, and the extrapolation to
+  // 0 is of second order.
   CHECK(coarse.lost / fine.lost == Approx(2).margin(0.1));
   CHECK(2 * fine.lost - coarse.lost == Approx(0).margin(5e-4));
   CHECK(2 * fine.force - coarse.force == Approx(0).margin(5e-4));
@@ -356,13 +357,14 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
     curve.samples.push_back({.indentation = 1e-7 * i, .force = std::exp(0.2 * i)});
   const TabulatedLaw table(curve, ratio);
   CHECK_THROWS_WITH(TangentialContact(table, 1e-6, 3e-6), Catch::Contains("law covers"));
-  // Slip below the table's first sample cannot be known.
+  // Slip below the table's first sample is unknown.
   TangentialContact deep(table, 1e-7, 1e-6,
                          {.friction_coefficient = 0.01, .tangential_range = 2e-6});
   deep.start(1e-6, 0);
-  CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("give a curve from lower forces on"));
-  // A force at which it slides, also where it slid before: there it went on for kilometres until
-  // rounding met the force.
+  CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6),
+                    Catch::Contains("give a curve that begins at lower forces"));
+  // A force at which the contact slides, and slid before. The search then went on for kilometres
+  // until rounding met the force.
   TangentialContact slipping(ExponentialLaw(2, 1e-7, ratio), -1e-7, 1e-7,
                              {.friction_coefficient = 0.3, .tangential_range = 4e-7});
   slipping.slide(0, 0, -1);

@@ -45,7 +45,7 @@ TEST_CASE("Sampled harmonic motion meets the theorem at second order in its step
       return std::abs(at(steps).work_per_cycle / exact.work_per_cycle - 1);
     };
     const double coarse = error(200), fine = error(800);
-    // Straight steps cut the corners of a circle: (Δθ)²/12 or so.
+    // Straight steps cut the corners of a circle, by about (Δθ)²/12.
     CHECK(fine < 4e-5);
     CHECK(std::log2(coarse / fine) / 2 == Approx(2).margin(0.25));
     const TrajectoryDamping result = at(800);
@@ -77,7 +77,7 @@ TEST_CASE("The loop's area is the loss, and the mean drag force times v is the p
 
   const SampledMotion dragged = sample(slow_drag(4e-7), indentation, 4000);
   const TrajectoryDamping drag = trajectory_damping(law, dragged);
-  // The permanent core is left out: it is stretched for ever and loses nothing.
+  // The permanent core is left out: it is stretched without end and loses nothing.
   CHECK(force_work(dragged, drag.tangential_force) == Approx(drag.work_per_cycle).epsilon(1e-5));
   CHECK(drag.tangential_force.front() == Approx(drag.tangential_force.back()).margin(1e-12));
   CHECK(std::isnan(drag.storage_stiffness));
@@ -149,7 +149,7 @@ TEST_CASE("Two frequencies: closed form, theorem and trajectory are one", "[traj
   for (const PowerLaw& law : {cone, paraboloid}) {
     const TrajectoryDamping followed = trajectory_damping(law, sample(motion, indentation, 1000));
     const DampingResult theorem = relaxation_damping(law, at_indentation(indentation), motion);
-    // Second order in 2π/1000 of the normal and 2πr/1000 of the tangential cycle.
+    // Second order in 2π/1000 of the normal cycle and 2πr/1000 of the tangential one.
     CHECK(followed.work_per_cycle == Approx(theorem.work_per_cycle).epsilon(1e-4));
     CHECK(followed.power == Approx(theorem.power).epsilon(1e-4));
     CHECK(followed.damping_constant == Approx(theorem.damping_constant).epsilon(1e-4));
@@ -168,7 +168,7 @@ TEST_CASE("Frequencies without a common period have the mean power of their neig
   CHECK(mean.power ==
         Approx(relaxation_damping(law, at_indentation(1e-6), near).power).epsilon(1e-4));
   CHECK_THROWS_WITH(sample(motion, 1e-6, 100), Catch::Contains("common period"));
-  // Slow tangential motion is the tunable damper of case (b).
+  // A slow tangential motion is the tunable damper of case (b).
   TwoFrequencies slow = motion;
   slow.tangential_angular_frequency = 300 * 1e-4 * golden;
   CHECK(relaxation_damping(law, at_indentation(1e-6), slow).damping_constant ==
@@ -178,7 +178,7 @@ TEST_CASE("Frequencies without a common period have the mean power of their neig
 
 TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as docs/theory.md, section 8 says",
           "[trajectory]") {
-  // A cone, small u_z: M = μE*u_z/(G*u_x) is the only parameter.
+  // For a cone at small u_z, M = μE*u_z/(G*u_x) is the only parameter.
   const PowerLaw law(1e9, 2, ratio);
   const double indentation = 1e-6, amplitude = 1e-8;
   auto loss = [&](double M, double phase) {
@@ -190,7 +190,7 @@ TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as docs/theory.md, section 8
         trajectory_damping(law, path, {.friction_coefficient = friction});
     return with.work_per_cycle / trajectory_damping(law, path).work_per_cycle;
   };
-  // Leading coefficients to what the next order leaves at M = 20 and 40.
+  // Leading coefficients, up to the next order at M = 20 and 40.
   CHECK((1 - loss(20, pi / 2)) * 400 == Approx(0.5).epsilon(0.05));
   CHECK((1 - loss(40, pi / 4)) * 40 == Approx(0.67).epsilon(0.05));
 }
@@ -212,7 +212,7 @@ TEST_CASE("Slip and relaxation part as friction grows and as the normal motion d
   const TrajectoryDamping rough = trajectory_damping(law, path, {.friction_coefficient = 1e5});
   CHECK(rough.relaxation_work == Approx(relaxation).epsilon(1e-4));
   CHECK(rough.slip_work < 1e-8 * relaxation);
-  // Without normal motion all of the loss is Mindlin's slip.
+  // Without normal motion the whole loss is Mindlin's slip.
   const TrajectoryDamping still = trajectory_damping(law, sample(equal_frequency(0, 0), 1e-6, 400),
                                                      {.friction_coefficient = 0.2});
   CHECK(still.relaxation_work == Approx(0).margin(1e-12 * still.work_per_cycle));
@@ -240,14 +240,14 @@ TEST_CASE("Trajectories that are not one period are refused with the reason", "[
   refuse([](SampledMotion& t) { t.indentation.back() += 1e-8; }, "one whole period");
   refuse([](SampledMotion& t) { t.time[5] = t.time[4]; }, "not later");
   refuse([](SampledMotion& t) { t.displacement[5] = NAN; }, "not finite");
-  refuse([](SampledMotion& t) { t.displacement.pop_back(); }, "as many");
-  refuse([](SampledMotion& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "too few");
+  refuse([](SampledMotion& t) { t.displacement.pop_back(); }, "the same number of");
+  refuse([](SampledMotion& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "samples given");
   CHECK_THROWS_AS(sample(equal_frequency(3e-7, 1.0), 1e-6, 2), InvalidInput);
   CHECK_THROWS_AS(trajectory_damping(law, good, {.friction_coefficient = -1}), InvalidInput);
 }
 
 TEST_CASE("The force of a periodic motion does not depend on where its samples begin") {
-  // Under a constant load T runs between ∓T of the joint: the springs that never slip are free of
+  // Under a constant load T runs between ∓T of the joint: springs that never slip are free of
   // stress in the middle of the motion, wherever its record begins.
   const ExponentialLaw law(10, 1e-7, 0.8);
   const double friction = 0.3, amplitude = 1e-8;
@@ -262,7 +262,7 @@ TEST_CASE("The force of a periodic motion does not depend on where its samples b
     }
     const auto force =
         trajectory_damping(law, path, {.friction_coefficient = friction}).tangential_force;
-    // 400 steps have both ends; the rest is round-off of the table of K_t.
+    // 400 steps include both ends; the rest is round-off of the table of K_t.
     CHECK(std::ranges::max(force) == Approx(expected).epsilon(1e-9));
     CHECK(std::ranges::min(force) == Approx(-expected).epsilon(1e-9));
   }

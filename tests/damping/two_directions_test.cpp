@@ -19,13 +19,13 @@ namespace {
 const Material material = Material::of_contact_modulus(3e9, 0.3);
 constexpr int steps = 24;
 
-// An ellipse that is neither along x nor in phase with the normal motion.
+// An ellipse that is not along x and not in phase with the normal motion.
 double x_at(double t) { return 2e-6 * std::cos(2 * pi * t + 0.7); }
 double y_at(double t) { return 3e-6 * std::cos(2 * pi * t - 0.9) + 1e-6 * std::sin(4 * pi * t); }
 double indentation_at(double t) { return 0.5 - 0.4 * std::cos(2 * pi * t); }
 
-// What stuck cells lose in three dimensions on a path in two directions, from its minimum of δ:
-// half of the move, the change of the contact set at rest, half of the move.
+// Loss of stuck cells in three dimensions on a path in two directions, from the minimum of δ: half
+// of the move, the change of the contact set at rest, half of the move.
 double simulated_work(const std::function<ContactSet(double)>& set_at, const Grid2D& grid) {
   StickSolver solver(grid, material, {.tolerance = 1e-11});
   const auto zero = [&] {
@@ -57,8 +57,8 @@ double simulated_work(const std::function<ContactSet(double)>& set_at, const Gri
   return work;
 }
 
-// ½ Σ s·(K_{k+1} − K_k)s: the cells between two sets enter at the middle time, and leave as long
-// before the end. With `crossed` off without K_xy, which is the sum of both directions.
+// ½ Σ s·(K_{k+1} − K_k)s: the cells between two sets enter at the middle time, and leave equally
+// long before the end. crossed = false omits K_xy, which gives the sum of both directions.
 double theorem(const std::function<ContactSet(double)>& set_at, const Grid2D& grid, bool crossed) {
   double sum = 0;
   StickStiffness below;
@@ -80,16 +80,16 @@ double theorem(const std::function<ContactSet(double)>& set_at, const Grid2D& gr
 
 TEST_CASE("In three dimensions a path in two directions loses by the vector of its stretch",
           "[two-directions]") {
-  // Numbers of cells at which no height of the islands is one of the levels.
+  // With these numbers of cells no island has the height of one of the levels.
   const Grid2D grid{27, 20, 1.3e-3, 1e-3}, square{24, 24, 1e-3, 1e-3};
-  const auto islands = [levels = island_levels(grid)](double indentation) {
+  const auto islands = [contact_sets = island_contact_sets(grid)](double indentation) {
     return contact_sets(indentation).contact;
   };
-  // Solver's 1e-11 of the displacement; the theorem itself is exact on any nested sets.
+  // The solver leaves 1e-11 of the displacement; the theorem itself is exact on any nested sets.
   CHECK(simulated_work(islands, grid) == Approx(theorem(islands, grid, true)).epsilon(1e-7));
-  // Islands without symmetry feel both directions at once.
+  // Islands without symmetry couple both directions.
   CHECK(std::abs(theorem(islands, grid, false) / theorem(islands, grid, true) - 1) > 1e-4);
-  // A circle has K_xy = 0: the sum of both directions, as of every isotropic K_t.
+  // A circle has K_xy = 0, so the loss is the sum of both directions, as for every isotropic K_t.
   const auto circle = [&](double indentation) {
     ContactSet contact(square.nx, square.ny);
     for (Index ix = 0; ix < square.nx; ++ix)
@@ -122,7 +122,7 @@ TEST_CASE("A path in two directions loses the sum of both", "[two-directions]") 
   CHECK(both.transverse_force == y.tangential_force);
   CHECK(x.transverse_force.empty());
 
-  // What a turn of the axes leaves as it is.
+  // These numbers do not change when the axes are turned.
   SampledMotion turned = path;
   std::vector<double> turned_transverse = transverse;
   const double c = std::cos(0.4), s = std::sin(0.4);

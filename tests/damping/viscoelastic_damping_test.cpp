@@ -68,7 +68,8 @@ TEST_CASE("A flat punch loses by the complex modulus, at second order in the ste
       CHECK(fine < 1.01e-4);
       CHECK(std::log2(coarse / fine) / 2 == Approx(2).margin(0.1));
 
-      // Sheared steadily, the branches are stretched by vτ_i and lose K_t (G_i/G∞) τ_i v² a second.
+      // Under steady shear the branches are stretched by vτ_i and lose K_t (G_i/G∞) τ_i v² per
+      // second.
       double viscosity = 0;
       for (const PronyTerm& term : prony.terms)
         viscosity += term.modulus / prony.relaxed_modulus * term.relaxation_time;
@@ -91,7 +92,7 @@ TEST_CASE(
                           (pi * loss * law.normal_stiffness(indentation) * amplitude * amplitude) -
                       1);
     };
-    // What opens is a ring of a width in proportion to the amplitude.
+    // The springs that open form a ring whose width is proportional to the amplitude.
     const double large = error(0.016 * indentation), small = error(0.004 * indentation);
     CHECK(small < 0.02);
     CHECK(std::log2(large / small) / 2 == Approx(1).margin(0.1));
@@ -105,7 +106,7 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
         const double exact =
             relaxation_damping(law, at_indentation(indentation), motion_of(1.0)).work_per_cycle;
         const auto excess = [&](double product) {
-          // Only the square of v/ω of case (b) enters.
+          // In case (b) only the square of v/ω enters.
           const double omega = product / tau;
           const ViscoelasticDamping found =
               damping(law, standard_solid, motion_of(omega), 512, 400);
@@ -113,7 +114,7 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
           CHECK(found.relaxation_work == Approx(scale).epsilon(20 * product + 1e-4));
           return found.tangential_material_work / scale;
         };
-        // The material loses at first order in ωτ.
+        // The loss in the material is of first order in ωτ.
         CHECK(std::log2(excess(4e-4) / excess(1e-4)) / 2 == Approx(1).margin(0.02));
       };
       compare([&](double omega) -> Oscillation { return equal_frequency(amplitude, omega); });
@@ -124,10 +125,10 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
 
 TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a wider ring",
           "[viscoelastic]") {
-  // The branches are frozen at their means. With R = G(0)/G∞ − 1 a level that is above δ_0 − h in
-  // its frozen shape lies R times the mean overlap lower in the relaxed one, so that the levels
-  // that open are spread by 1 + Rθ/π, θ the half time of contact:
-  //     (a) 1 + R/2,    (b) 1 + R(π² − 6)/(π² − 4)    over the elastic loss with G(0), for constant F''.
+  // The branches are frozen at their means. With R = G(0)/G∞ − 1, a depth above δ_0 − h in the
+  // frozen shape lies R times the mean overlap lower in the relaxed one. The depths of the springs
+  // that open are therefore spread by 1 + Rθ/π, with θ half the time of contact:
+  //     (a) 1 + R/2,    (b) 1 + R(π² − 6)/(π² − 4)    of the elastic loss with G(0), constant F''.
   const IndenterLaw law(cone_profile(0.2), material);
   const double amplitude = 0.05 * indentation, omega = 1e5 / tau, R = 3;
   const auto elastic = [&](const Oscillation& motion) {
@@ -137,11 +138,11 @@ TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a w
        {std::pair<Oscillation, double>(equal_frequency(amplitude, omega), 1 + R / 2),
         {slow_drag(amplitude, omega), 1 + R * (pi * pi - 6) / (pi * pi - 4)}}) {
     const ViscoelasticDamping found = damping(law, standard_solid, motion, 512, 400);
-    // 1/(ωτ) and the square of 2π/512.
+    // Tolerance: 1/(ωτ), and the square of 2π/512.
     CHECK(found.relaxation_work == Approx(4 * spread * elastic(motion)).epsilon(2e-4));
     CHECK(found.min_contact_radius ==
           Approx(law.contact_radius(indentation - (1 + R) * amplitude)).epsilon(1e-4));
-    // It falls as 1/(ωτ), with K and u_z² as scale.
+    // The loss in the material falls as 1/(ωτ), on the scale of K and u_z².
     CHECK(found.normal_material_work <
           1e-3 * law.normal_stiffness(indentation) * amplitude * amplitude);
   }
@@ -149,7 +150,7 @@ TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a w
 
 TEST_CASE("Without terms the loss is that of the elastic springs", "[viscoelastic]") {
   const IndenterLaw law(rounded_punch_profile(1e-4, 5e-3), material);
-  // The second amplitude lifts the flat end too, which is let go as a whole.
+  // At the second amplitude the flat end lifts off too, and separates as a whole.
   for (const double amplitude : {0.4 * indentation, 1.2 * indentation}) {
     const SampledMotion path =
         sample(Oscillation(equal_frequency(amplitude, 50)), indentation, 400);
@@ -165,7 +166,7 @@ TEST_CASE("Without terms the loss is that of the elastic springs", "[viscoelasti
 }
 
 TEST_CASE("The three losses are those of springs followed until they repeat", "[viscoelastic]") {
-  // Heun's method on z_i' = (w − z_i)/τ_i, both directions; 40 periods of 2000 steps, 60 springs.
+  // Heun's method on z_i' = (w − z_i)/τ_i in both directions; 40 periods of 2000 steps, 60 springs.
   const PronySeries prony{1e6, {{2e6, 4e-3}, {3e6, 0.03}}};
   const double ratios[]{2, 3}, times[]{4e-3, 0.03}, unrelaxed = 6;
   const double omega = 100, amplitude = 0.5 * indentation;
@@ -238,13 +239,14 @@ TEST_CASE("The three losses are those of springs followed until they repeat", "[
         normal_work += width * (normal.w - w_before) * (normal_before + normal.force()) / 2;
       closed = now;
     }
-    // What is always closed ends a drift with more energy than it began with.
-    if (indentation - spring_depth > 6 * amplitude && std::holds_alternative<Drag>(motion)) drifting += 1;
+    // In a drift a spring that is always closed ends with more energy than it began with.
+    if (indentation - spring_depth > 6 * amplitude && std::holds_alternative<Drag>(motion))
+      drifting += 1;
   }
   CHECK(drifting == 0);  // with six times the relaxed modulus every spring opens
   const ViscoelasticDamping found = damping(law, prony, motion, 1000);
   const double stiffness = 2 * law.contact_modulus(), shear = stiffness * law.modulus_ratio();
-  // A step late at each touch and release, 2000 steps; midpoints of 60 springs.
+  // 2000 steps place each touch and release up to a step late; midpoints of 60 springs.
   CHECK(found.normal_material_work == Approx(stiffness * normal_work).epsilon(3e-3));
   CHECK(found.relaxation_work == Approx(shear * relaxation).epsilon(5e-3));
   CHECK(found.tangential_material_work == Approx(shear * (closed_work - relaxation)).epsilon(5e-3));
@@ -287,8 +289,8 @@ TEST_CASE(
     "Relaxation times from far below to far above the period: each part of the series is relaxed "
     "or frozen",
     "[viscoelastic]") {
-  // The branch of 1e-9 s does nothing, that of 1e8 s is frozen: as the standard solid fast, (V2) of
-  // docs/theory.md, section 9.
+  // The branch of 1e-9 s has no effect, and that of 1e8 s is frozen: the result is that of a fast
+  // standard solid, (V2) of docs/theory.md, section 9.
   const IndenterLaw law(cone_profile(0.2), material);
   const EqualFrequency motion = equal_frequency(0.05 * indentation, 10);
   const ViscoelasticDamping found =

@@ -15,9 +15,9 @@
 
 namespace salebra {
 
-/// W of a slow tangential motion without surface_damping(): of the mean K between `intervals` + 1
-/// contacts by their forces, and of K of the last. stick: with K_t/((G*/E*)K) of stick solves at
-/// both ends and in the middle, else K_t = (G*/E*)K.
+/// W of a slow tangential motion without surface_damping(), from the mean K between `intervals` + 1
+/// contacts, by their forces, and from K of the last. stick: uses K_t/((G*/E*)K) of stick solves at
+/// both ends and in the middle, otherwise K_t = (G*/E*)K.
 inline double work_by_contacts(const Surface& surface, const Material& material, double pressure,
                                const Drag& motion, int intervals, bool stick) {
   constexpr double pi = std::numbers::pi;
@@ -62,8 +62,8 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
   return 4 * way * way * material.modulus_ratio() * sum;
 }
 
-/// W of a joint by contacts between the forces F and F − T/μ, the levels that slip, with K_t = K:
-/// 4μ² ∫_0^c (c − 2t) K(δ − t) dt.
+/// W of a joint from contacts between the forces F and F − T/μ, the range of the springs that slip,
+/// with K_t = K: 4μ² ∫_0^c (c − 2t) K(δ − t) dt.
 inline double joint_work_by_contacts(const Surface& surface, const Material& stuck, double pressure,
                                      double tangential_force, double friction_coefficient) {
   constexpr int intervals = 16;
@@ -91,7 +91,7 @@ inline double joint_work_by_contacts(const Surface& surface, const Material& stu
 }
 
 /// The law of a surface from contacts inside an oscillation about the indentation under a pressure,
-/// and that indentation; with K_t = (G*/E*)K.
+/// and that indentation; K_t = (G*/E*)K.
 inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
     const Surface& surface, const Material& material, double pressure, double normal_amplitude,
     int intervals) {
@@ -104,7 +104,7 @@ inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
   options.initial_pressure = &start;
   ForceCurve curve{.model = "bem", .nominal_area = surface.grid.area(), .samples = {}};
   for (int k = 0; k <= intervals; ++k) {
-    // A law that ends at the oscillation's last digit would be left by round-off.
+    // If the law ended exactly at the oscillation, round-off would lead out of it.
     const double place =
         center - 1.001 * normal_amplitude * std::cos(std::numbers::pi * k / intervals);
     state = press(surface, material.contact_modulus, at_indentation(place), options);

@@ -116,7 +116,7 @@ def compare(shown, printed, where):
     """Lines of the page against lines of the program, a lone … standing for any number of lines."""
     shown = [line for line in shown.splitlines() if line.strip()]
     # Progress depends on the speed of the machine, and a build without the assets of the report says so: neither is on any page.
-    beside = r"\w+: \w+ \d+ of \d+ .*|no report was written: this build carries no .*"
+    beside = r"\w+: \w+ \d+ of \d+ .*|no report was written: this build does not contain .*"
     printed = [line for line in printed.splitlines() if line.strip() and not re.fullmatch(beside, line)]
     if not shown:
         return

@@ -19,8 +19,8 @@ using namespace salebra;
 
 namespace {
 
-// Reads δ x y from one file, and writes F, F_x, F_y and the derivatives to another: each step is tried
-// before it is taken.
+// Reads δ x y from one file, and writes F, F_x, F_y and the derivatives to another. It tries each
+// step before it takes it.
 constexpr const char* driver = R"(
 #include "bolt.h"
 #include <stdio.h>
@@ -45,8 +45,8 @@ int main(void) {
 
 void compare(const ContactLaw& law, double lowest, double highest, double friction) {
   const auto springs = std::make_shared<const LawSprings>(
-      law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .intervals = 40});
-  // Millimetres and kilonewtons: what is checked against SI are the units as well.
+      law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .springs = 40});
+  // Millimetres and kilonewtons, so the comparison with SI checks the units too.
   const CHeaderOptions options{
       .name = "bolt", .comment = {"one", "two"}, .length_unit = 1e-3, .force_unit = 1e3};
   const Scratch scratch;
@@ -69,7 +69,7 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
                        " -x c -std=c99 -pedantic -Wall -Wextra -Werror driver.c -o driver -lm")
                           .c_str()) == 0);
   REQUIRE(std::system((there + "./driver").c_str()) == 0);
-  // Round-off of sums of forty levels, relative to the largest of each kind.
+  // Tolerance: round-off of sums of forty levels, relative to the largest number of each kind.
   const double force = law.force(highest), stiffness = law.normal_stiffness(highest);
   ContactElement element(springs);
   element.start(0, 0, 0);
@@ -102,7 +102,7 @@ TEST_CASE("A C header takes the steps of a contact element") {
   for (const double friction : {0.3, std::numeric_limits<double>::infinity()}) {
     compare(ExponentialLaw(10, 1e-7, ratio), -5e-8, 5e-8, friction);
     compare(PowerLaw(1e9, 1.5, ratio), 1e-8, 9e-8, friction);
-    // A table with a K_t of its own, whose K and K_t scatter.
+    // A table with its own K_t, in which K and K_t scatter.
     ForceCurve curve{.model = "measured", .nominal_area = 1, .samples = {}};
     for (int i = 0; i < 60; ++i) {
       const double force = 1e-3 * std::pow(1e5, i / 59.0), scatter = 0.05 * std::sin(7.0 * i);

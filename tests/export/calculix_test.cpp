@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decks of CalculiX, run by CalculiX where it is installed (Debian: calculix-ccx).
+// Runs decks for CalculiX with CalculiX, if it is installed (Debian: calculix-ccx).
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -16,8 +16,8 @@ namespace {
 
 bool has_calculix() { return std::system("command -v ccx >/dev/null 2>&1") == 0; }
 
-/// Forces on a cube of 1 mm² that is pressed against another, `gap` apart, after each of the
-/// approaches; m, N. The cubes are so stiff that their own compression is 3e-5 of l at the most.
+/// Forces on a cube of 1 mm² that is pressed against another one at the distance `gap`, after each
+/// of the approaches; m, N. The cubes are so stiff that their own compression is at most 3e-5 of l.
 std::vector<double> press(const std::string& deck, double gap, const std::vector<double>& ways) {
   const Scratch scratch;
   const double side = 1e-3;
@@ -58,7 +58,7 @@ TEST_CASE("CalculiX presses a cube with the force of the law", "[export][calculi
   problem.format = DeckFormat::calculix;
   SECTION("exponential") {
     problem.contacts = {exponential()};
-    // Clearances from 3 l down to −l.
+    // The clearances run from 3 l down to −l.
     const double gap = 4 * decay_length;
     const std::vector<double> ways{1e-7, 2e-7, 3e-7, 4e-7, 5e-7};
     const auto forces = press(solve(problem).text, gap, ways);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decks read back, in every unit system, and what is refused.
+// Decks read back in every unit system, and refusals.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-/// Pressure over clearance of a deck, whatever its format counts.
+/// Pressure over clearance of a deck, whatever coordinate its format uses.
 std::vector<std::pair<double, double>> table_of(DeckFormat format, const std::string& text) {
   std::vector<std::pair<double, double>> table;
   if (format == DeckFormat::csv)
@@ -31,7 +31,7 @@ std::vector<std::pair<double, double>> table_of(DeckFormat format, const std::st
     const double zero = rows_after(text, "** mean")[0][0];
     for (const auto& row : rows_after(text, "PRESSURE-OVERCLOSURE"))
       table.emplace_back(zero - row[1], row[0]);
-    table.pop_back();  // the one that goes on with the last slope
+    table.pop_back();  // the row that continues the last slope
   }
   if (format == DeckFormat::code_aster) {
     const std::string distance = text.substr(text.find("DIST_1=") + 7);
@@ -75,7 +75,7 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
           "[export]") {
   const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
                                DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster);
-  // A length in m, a mass in kg and a time in s; pressure is mass/(length time²).
+  // Length in m, mass in kg and time in s; pressure is mass/(length time²).
   struct System {
     const char* name;
     double length, mass, time;
@@ -90,7 +90,7 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
   problem.rows = 1000;
   const DeckSolution answer = solve(problem);
   auto table = table_of(format, answer.text);
-  // Those of springs begin without a pressure.
+  // Tables of springs begin without pressure.
   const bool from_zero = format != DeckFormat::csv && format != DeckFormat::json;
   if (from_zero) {
     CHECK(table.front().second == 0);
@@ -100,14 +100,15 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
   CHECK(table.size() == (format == DeckFormat::ansys      ? 19
                          : format == DeckFormat::calculix ? 198
                                                           : 1000));
-  // The curve of 200 samples is interpolated to 1e-8; decks hold ten digits of numbers whose
-  // differences are clearances.
+  // The interpolation of the curve of 200 samples has an error of 1e-8; decks have ten digits of
+  // numbers whose differences are clearances.
   const double unit = mass / (length * time * time);
   for (const auto& [clearance, value] : table)
     REQUIRE(value * unit == Approx(pressure(clearance * length)).epsilon(1e-6));
   CHECK(table.front().first * length == Approx(0.8e-6).epsilon(1e-6));
   CHECK(table.back().first * length == Approx(0.1e-6).epsilon(1e-6));
-  // Monotone and convex, and lines between the rows are as close as the header says.
+  // The table is monotone and convex, and lines between its rows are as accurate as the header
+  // says.
   double worst = 0, last_slope = 0;
   for (std::size_t i = 1; i < table.size(); ++i) {
     const double slope =
@@ -146,7 +147,7 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
     problem.pressure_window = {2e6, 2e6 * (1 + 1e-14)};
     problem.rows = 100000;
     CHECK_FALSE(refusal(problem).empty());
-    // Twenty characters tell fewer numbers apart than a double does.
+    // Twenty characters distinguish fewer numbers than a double does.
     const bool few = format == DeckFormat::calculix || format == DeckFormat::abaqus;
     problem.pressure_window->second = 2e6 * (1 + 4e-14);
     problem.rows = 40;
@@ -154,7 +155,7 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
       CHECK_THAT(refusal(problem), Contains("rows: 40 are too many: two have the ") &&
                                        Contains("in all digits that are read; give fewer, or "
                                                 "widen `pressure_window`"));
-    // The remedy helps.
+    // The remedy in the message helps.
     problem.rows = 4;
     problem.pressure_window->second = 2e6 * (1 + 1e-10);
     require_rows();
@@ -163,7 +164,7 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
     problem.pressure_window.reset();
     problem.contacts.front().clearance_origin += 1e-2;
     require_rows();
-    // Its last digit is 2 mm: nothing is left of a contact of 1 µm.
+    // The last digit of this clearance is 2 mm, so nothing is left of a contact of 1 µm.
     problem.contacts.front().clearance_origin += 1e13;
     CHECK_FALSE(refusal(problem).empty());
   }
@@ -177,7 +178,7 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
   problem.contacts = {cubic()};
   problem.format = format;
   problem.friction_coefficient = 0.3;
-  // What the other program would run: the deck without its comments.
+  // The part that the other program would run: the deck without its comments.
   const auto commands = [&](const std::string& text) {
     if (format == DeckFormat::json) return nlohmann::json::parse(text)["laws"].dump();
     if (format == DeckFormat::c_header) {
@@ -210,8 +211,8 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
     CHECK(std::ranges::none_of(text, [](char symbol) {
       return symbol != '\n' && ((symbol >= 0 && symbol < ' ') || symbol == '\x7f');
     }));
-    // CalculiX takes what is beyond 1320 characters for another line, and Ansys what is beyond 640; of
-    // the C header, code has more than 80 in a line and comments have not.
+    // CalculiX reads characters beyond 1320 as another line, and Ansys characters beyond 640. In
+    // the C header, code has lines of more than 80 characters, comments do not.
     std::istringstream lines(text.substr(0, text.find("#define")));
     for (std::string line; std::getline(lines, line);)
       if (format != DeckFormat::csv) CHECK(line.size() <= 170);
@@ -249,7 +250,7 @@ TEST_CASE("CalculiX's exponential has the decay length of the law, and 1 % of p0
   const auto row = rows_after(text, "PRESSURE-OVERCLOSURE=EXPONENTIAL").at(0);
   CHECK(row[1] == Approx(force0 / area0));
   CHECK(row[1] * std::exp(-row[0] / decay_length) == Approx(0.01 * row[1]).epsilon(1e-9));
-  // Abaqus' function of that name is another one.
+  // The function of that name in Abaqus is a different one.
   problem.format = DeckFormat::abaqus;
   CHECK_THAT(solve(problem).text, Contains("TABULAR") && !Contains("EXPONENTIAL"));
 }
@@ -300,10 +301,10 @@ TEST_CASE("What makes no deck is refused with what it lacks", "[export]") {
   CHECK(refusal(problem).empty());
   problem.contacts.front().indentation = DeckContact::unknown;
   CHECK_THAT(refusal(problem), Contains("indentation: not given"));
-  CHECK_THROWS_WITH(parse_unit_system("mm,stone,s"), Contains("stone is no mass"));
+  CHECK_THROWS_WITH(parse_unit_system("mm,stone,s"), Contains("stone is not a unit of mass"));
   CHECK_THROWS_WITH(parse_unit_system("mm,t"), Contains("a length, a mass and a time"));
 
-  // A curve that a kink bends the wrong way, and one that falls.
+  // One curve bends the wrong way at a kink, another one falls.
   ForceCurve bent = cubic_curve();
   for (ForceSample& sample : bent.samples) {
     sample.normal_stiffness = ForceSample::unknown;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Contacts whose law is known in closed form, and a reader of decks that shares nothing with their
-/// writers: the numbers of each line.
+/// Contacts whose law has a closed form, and a reader of decks that shares nothing with their
+/// writers: it reads the numbers of each line.
 namespace salebra::testing {
 
 constexpr double decay_length = 100e-9, force0 = 10, area0 = 1e-6, modulus_ratio = 0.8;
@@ -43,8 +43,8 @@ inline DeckContact cubic(double factor = 1) {
                                    "curve"});
 }
 
-/// Rows of numbers that follow the first line with `start`, up to a line without any. Whatever is
-/// no part of a number parts them.
+/// Rows of numbers after the first line with `start`, up to a line without numbers. Characters that
+/// belong to no number separate numbers.
 inline std::vector<std::vector<double>> rows_after(const std::string& text,
                                                    const std::string& start) {
   std::istringstream lines(text.substr(text.find(start)));

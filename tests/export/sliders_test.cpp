@@ -21,9 +21,9 @@ std::vector<std::vector<double>> sliders_of(const DeckContact& contact, int coun
   return rows_after(solve(problem).text, "stiffness,slider_force");
 }
 
-/// Loss of a cycle between ±T, each slider followed in straight steps through the loop.
+/// Loss of a cycle between ±T; follows each slider in straight steps through the loop.
 double loss_of(const std::vector<std::vector<double>>& sliders, double force) {
-  // The displacement at which they carry T together, by bisection.
+  // The displacement at which the sliders together carry T, by bisection.
   const auto carried = [&](double x) {
     double sum = 0;
     for (const auto& slider : sliders) sum += std::min(slider[0] * x, slider[1]);
@@ -34,7 +34,7 @@ double loss_of(const std::vector<std::vector<double>>& sliders, double force) {
   double work = 0;
   for (const auto& slider : sliders) {
     double stretch = 0, lost = 0;
-    // To +x, to −x and back: after the first, each way costs what slides on it.
+    // To +x, to −x and back: after the first step, each step loses what slides during it.
     for (const double way : {high, -2 * high, 2 * high}) {
       const double limit = slider[1] / slider[0], free = stretch + way;
       stretch = std::clamp(free, -limit, limit);
@@ -51,7 +51,7 @@ TEST_CASE("Sliders of the exponential law lose what the closed form says, with o
           "[export]") {
   // W = 8μ²(E*/G*) l F[−(1 − q/2) ln(1 − q) − q], q = T/(μF).
   const double scale = 8 * friction * friction / modulus_ratio * decay_length * force0;
-  // Where T lies between the slips of two sliders changes the constant, not the order, hence the
+  // The position of T between the slips of two sliders changes the constant, not the order, so the
   // largest error of five counts.
   const auto worst = [&](int count) {
     const auto sliders = sliders_of(exponential(), count);
@@ -66,7 +66,7 @@ TEST_CASE("Sliders of the exponential law lose what the closed form says, with o
   INFO(ten << ' ' << fifty << ' ' << many << ' ' << most);
   CHECK(fifty < 0.02);
   CHECK(many < 1e-3);
-  // With five places in each slider's range, the order is known to some tenths.
+  // With five forces in the range of each slider, the order is known to some tenths.
   CHECK(std::log(ten / fifty) / std::log(5.) > 1.5);
   CHECK(std::log(fifty / most) / std::log(16.) == Approx(2).margin(0.3));
 }
@@ -92,7 +92,7 @@ TEST_CASE("Sliders of a curve lose what joint_loss() says, and know where levels
   const DeckContact contact = cubic();
   const double force = force0 / 8;
   const auto sliders = sliders_of(contact, 400);
-  // Levels below ū = 0.8 h, of 0.064 of F, are one slider.
+  // The springs beyond ū = 0.8 h, with 0.064 of F, are one slider.
   for (const double q : {0.02, 0.3, 0.7, 0.9}) {
     const JointLoss joint =
         joint_loss(*contact.law, at_force(force), TangentialForce{q * friction * force}, friction);
@@ -109,7 +109,7 @@ TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by de
   const DeckSolution answer = solve(problem);
   CHECK(std::abs(answer.loss_error) < 0.01);
   const double q = problem.min_force;
-  // W is μFx_c q³/6 · 4 … at small q: the series of the closed form, whose bracket cancels.
+  // At small q the bracket of the closed form cancels, so this is its series.
   const double exact = 8 * friction * friction / modulus_ratio * decay_length * force0 *
                        (q * q * q / 12 + q * q * q * q / 12);
   const double found =

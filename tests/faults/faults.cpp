@@ -362,7 +362,7 @@ class CaseRun {
     before_ = files_in(bench_.folder());
     const Outcome whole = bench_.run(case_.command, bench_.folder(), nullptr);
     if (whole.errors.find("not installed") != std::string::npos ||
-        whole.errors.find("no plotly.js") != std::string::npos)
+        whole.errors.find("does not contain plotly.js") != std::string::npos)
       return "needs what is not installed";
     if (whole.status != 0) throw std::runtime_error(case_.name + ": " + whole.errors);
     after_ = files_in(bench_.folder());

@@ -8,9 +8,9 @@
 using salebra::detail::Checksum;
 
 TEST_CASE("A checksum is that of its definition, however the bytes are cut", "[checksum]") {
-  // By integers of any size: for each word w of eight bytes, the lowest first, the last filled with
-  // zeros, and at the end the number of bytes, s becomes (s xor w)·0x9e3779b97f4a7c15 modulo 2^64,
-  // then s xor s/2^32. Files of other runs depend on it.
+  // Values from integers of any size: each word w of eight bytes (low byte first, the last word
+  // padded with zeros), and at the end the number of bytes, turns s into
+  // (s xor w)·0x9e3779b97f4a7c15 modulo 2^64, then into s xor s/2^32. Existing files need them.
   CHECK(Checksum().digits() == "0000000000000000");
   CHECK(Checksum("a").digits() == "ffde1b4163a5fcc0");
   CHECK(Checksum("salebra ").digits() == "ed211ace478def46");

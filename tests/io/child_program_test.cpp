@@ -15,10 +15,10 @@ TEST_CASE("A child ends with its time, by the stop flag, and within its memory",
   CHECK(late.signal == 9);
   CHECK_THROWS_AS(detail::run_child({"sleep", "20"}, "", {.stopped = [] { return true; }}),
                   Interrupted);
-  // A look each 20 ms, and the start of a program.
+  // The child is checked every 20 ms; the rest of the time is for starting a program.
   CHECK(std::chrono::steady_clock::now() - start < 5s);
 
-  // tail keeps all of it; the limit is there before the pause ends.
+  // tail keeps all of its input in memory. The limit is set before the sleep ends.
   const std::vector<std::string> words{"sh", "-c",
                                        "sleep 0.1; head -c 200000000 /dev/zero | tail -c 200000000"
                                        " | wc -c"};

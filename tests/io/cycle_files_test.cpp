@@ -28,7 +28,7 @@ std::vector<CycleState> states_of_a_cycle() {
   std::vector<CycleState> states;
   CycleOptions options{.steps = 8, .direction = 0.6};
   options.on_state = [&](CycleState state) { states.push_back(std::move(state)); };
-  simulate_cycle(island_levels(grid), grid, Material::of_contact_modulus(1e9, 0.3),
+  simulate_cycle(island_contact_sets(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                  trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
   return states;
 }
@@ -42,7 +42,7 @@ std::vector<CycleState> states_with_friction() {
   return states;
 }
 
-// A state of a coupled cycle with a value of its own in every place.
+// A state of a coupled cycle with a different value in every member.
 CycleState coupled_state() {
   CycleState state = states_with_friction()[12];
   CoupledState body{.sliding = std::get<SlidingState>(state.body),
@@ -98,7 +98,7 @@ void check_same(const CoupledState& a, const CoupledState& b) {
   CHECK(a.termination == b.termination);
 }
 
-// Every member of a state, with every column of its samples.
+// Compares every member of two states, and every column of their samples.
 template <class Body>
 void check_same(const CycleState& a, const CycleState& b) {
   CHECK(a.period == b.period);
@@ -147,7 +147,7 @@ TEST_CASE("A checkpoint gives the states of its cycles back to the last bit", "[
   CHECK(fingerprint(last_changed) != settings.back().second);
 
   write_cycle_checkpoint(file, std::vector{states_of_a_cycle()[2]}, settings, {});
-  write_cycle_checkpoint(file, std::vector{stuck}, settings, {});  // replaces the last one
+  write_cycle_checkpoint(file, std::vector{stuck}, settings, {});  // replaces the previous one
   const std::vector<CycleState> one = read_cycle_checkpoint(file, settings);
   REQUIRE(one.size() == 1);
   check_same<StuckState>(one[0], stuck);
@@ -199,7 +199,7 @@ TEST_CASE("Everything that decides a bit of a cycle is a setting of its checkpoi
   differs(settings_of(), "coupling_constant");
   options = {.friction_coefficient = 0.3, .steps = 10};
   const std::string here = arithmetic();
-  setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);  // as another processor would go on
+  setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);  // acts like another processor
   if (arithmetic() != here) differs(settings_of(), "arithmetic");
   unsetenv("SALEBRA_VECTOR_WIDTH");
 }
@@ -210,15 +210,15 @@ TEST_CASE("A checkpoint of other settings, or what is none, is refused in one li
   write_cycle_checkpoint(file, std::vector{states_of_a_cycle()[2]}, {{"steps", "64"}, {"nx", "12"}},
                          {});
   CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"nx", "12"}, {"steps", "32"}}),
-                    Catch::Contains("steps was 64") && Catch::Contains("is 32 now"));
+                    Catch::Contains("steps is 64") && Catch::Contains("but 32 now"));
   CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"phase", "1"}}),
-                    Catch::Contains("phase was not there"));
+                    Catch::Contains("phase is not there"));
   ResultFile other(scratch / "other.h5", {});
   other.group("curve").index("sample", 3, "samples");
   other.commit();
   CHECK_THROWS_WITH(read_cycle_checkpoint(scratch / "other.h5", {}),
-                    Catch::Contains("is no checkpoint"));
-  CHECK_THROWS_AS(read_cycle_checkpoint(scratch.file("text.h5", "no HDF5"), {}), InvalidInput);
+                    Catch::Contains("is not a checkpoint"));
+  CHECK_THROWS_AS(read_cycle_checkpoint(scratch.file("text.h5", "not an HDF5"), {}), InvalidInput);
 }
 
 TEST_CASE("A checkpoint of another version, or with a field that is not finite, is refused",
@@ -240,7 +240,7 @@ TEST_CASE("A checkpoint of another version, or with a field that is not finite, 
   }
   CHECK_THROWS_WITH(
       read_cycle_checkpoint(file, {}),
-      Contains("version was 7.0") && Contains("is " + std::string(version()) + " now"));
+      Contains("version is 7.0") && Contains("but " + std::string(version()) + " now"));
 
   std::get<StuckState>(state.body).traction.x(3, 2) = std::nan("");
   write_cycle_checkpoint(file, std::vector{state}, {}, {});
@@ -281,10 +281,10 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
     times.push_back((*at)[1]);
   CHECK(times == std::vector<std::string>{"0", "0.5", "0.75"});
   CHECK(list.find("TopologyType=\"2DSMesh\" Dimensions=\"12 9\"") != std::string::npos);
-  // An ampersand or a bracket left as it is would end the parsing.
+  // A raw ampersand or bracket would be malformed XML.
   CHECK_FALSE(std::regex_search(list, std::regex("&(?!amp;|lt;)")));
 
-  // The value of cell (ix, iy) stands beside the point (x, y) of that cell.
+  // The value of cell (ix, iy) has the same index as the point (x, y) of that cell.
   const ResultReader mesh(scratch / "a&b-mesh.h5");
   const std::vector<double> points = mesh.numbers("mesh/cells");
   const ResultReader frame(scratch / "a&b-0004.h5");
@@ -300,7 +300,7 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   check_same(frame.field("fields/traction_y"), fourth.traction.y);
   check_same(frame.field("fields/displacement_x"), fourth.displacement.x);
   check_same(frame.field("fields/displacement_y"), fourth.displacement.y);
-  // Without pressures to tell, the gap is that of undeformed bodies that just touch.
+  // Without a normal solution, the gap is that of undeformed bodies that just touch.
   CHECK(frame.field("fields/gap").minCoeff() == 0);
   const ResultReader last(scratch / "a&b-0006.h5");
   CHECK((last.field("fields/contact_pressure") == normal.contact_pressure).all());
@@ -351,13 +351,13 @@ TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   CHECK((frame.field("fields/contact") == (body.contact_pressure > 0).cast<double>()).all());
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
-  // A coupled contact has the gap of its state.
+  // A coupled contact takes the gap from its state.
   const CycleState coupled = coupled_state();
   CycleFields(scratch / "f-coupled", surface, {}).write(coupled, 0.375, {});
   const ResultReader with_gap(scratch / "f-coupled-0003.h5");
   check_same(with_gap.field("fields/gap"), std::get<CoupledState>(coupled.body).gap);
   check_same(with_gap.field("fields/loss"), loss);
-  // A resumed run lists what is there, whatever its fields.
+  // A resumed run lists the fields that the existing files contain.
   CycleFields resumed(scratch / "f-friction", surface, {}, {.overwrite = true});
   resumed.keep(3, 0.375);
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
@@ -370,16 +370,16 @@ TEST_CASE("A recorded cycle that fails or is stopped resumes from its last step"
       .checkpoint = scratch / "cycle.h5", .checkpoint_every = 1e9, .resume = true};
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const Trajectory motion = trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5);
-  // Both cycles, the second one stopped by its progress or by its contact, or not at all.
+  // Runs both cycles. The second one is interrupted, fails with an exception, or finishes.
   struct Runs {
     CycleResult stuck, frictional;
-    int first_step = 0;  // of the second
+    int first_step = 0;  // of the second cycle
   };
   const auto run = [&](int stop_at, bool fail) {
     CycleRecorder recorder(record, {{"steps", "8"}}, {});
     Runs runs;
     runs.stuck = recorder.run({.steps = 8}, [&](const CycleOptions& options) {
-      return simulate_cycle(island_levels(grid), grid, material, motion, options);
+      return simulate_cycle(island_contact_sets(grid), grid, material, motion, options);
     });
     runs.first_step = -1;
     CycleOptions options{.friction_coefficient = 0.3, .steps = 8, .max_periods = 2};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Copies of values whose memory fails at each allocation in turn: each throws std::bad_alloc and
-// leaves nothing half-made.
+// Copies values while each allocation fails in turn: the copy must throw std::bad_alloc and leave
+// nothing incomplete.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
@@ -15,7 +15,7 @@ constexpr long never = -1;
 long allocations_left = never;
 }  // namespace
 
-// This is not inlined: GCC would take free() of what came from new for a mistake.
+// Not inlined: GCC would warn that free() does not match new.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   if (allocations_left != never && allocations_left-- == 0) {
     allocations_left = never;
@@ -29,8 +29,8 @@ long allocations_left = never;
 
 namespace {
 
-/// Number of allocations of a piece of work that failed in turn, each with std::bad_alloc, before
-/// it went through.
+/// Lets the first, second, … allocation of `work` fail, which must throw std::bad_alloc, until the
+/// work succeeds. Returns the number of failures.
 template <class Work>
 long failures_before(Work work) {
   for (long n = 0; n < 1000; ++n) {

@@ -120,7 +120,7 @@ TEST_CASE("A curve of HDF5 is converted from the units that it states", "[curve 
   CHECK(read_force_curve(scratch / "Pa.h5").samples[1].pressure == 2);
   CHECK(read_force_curve(scratch / "MPa.h5").samples[1].pressure == 2e6);
   CHECK_THROWS_WITH(read_force_curve(scratch / "V.h5"),
-                    Contains("curve/pressure in 'V', which is no unit like Pa"));
+                    Contains("curve/pressure in 'V', which is not a unit like Pa"));
 }
 
 TEST_CASE("A table that is no curve is refused with the reason", "[curve file]") {
@@ -137,7 +137,7 @@ TEST_CASE("A table that is no curve is refused with the reason", "[curve file]")
   refused("pressure [MPa], mean_gap [nm]\n1, two\n", "two");
   refused("pressure [MPa], gap\n1, 2\n", "mean_gap");
   refused("pressure [MPa], depth [nm], mean_gap [nm]\n1, 2, 3\n", "'depth [nm]'");
-  refused("pressure [MPa], mean_gap\n1, 2\n", "none of mean_gap");
+  refused("pressure [MPa], mean_gap\n1, 2\n", "none for mean_gap");
   refused("mean_gap [nm]\n1\n2\n", "pressure or force");
   refused("pressure [MPa], mean_gap [nm]\n1, 3\nnan, 2\n3, 1\n", "'nan' for pressure in row 2");
   refused("pressure [MPa], mean_gap [nm\n1, 2\n", "bracket");

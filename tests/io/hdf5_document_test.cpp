@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Outlines of HDF5 files that cannot be, which a reading process that was taken over might hand
-// over.
+// Impossible outlines of HDF5 files, which a compromised reading process might hand over.
 #include "io/hdf5_document.hpp"
 
 #include <hdf5_hl.h>
@@ -31,7 +30,7 @@ namespace {
 std::string handed_over;
 
 void hand_over(const Hdf5Reading& reading) {
-  std::memcpy(reading.place(handed_over.size()).data(), handed_over.data(), handed_over.size());
+  std::memcpy(reading.location(handed_over.size()).data(), handed_over.data(), handed_over.size());
 }
 
 struct Installed {
@@ -73,21 +72,21 @@ TEST_CASE("An outline that cannot be is refused, whoever hands it over", "[hdf5]
   SECTION("an object of no kind") { numbers.kind = Object::Kind(4); }
   SECTION("a member of no kind") { group.members[0].second = Object::Kind(255); }
   SECTION("fewer numbers than the shape says") { numbers.numbers->pop_back(); }
-  SECTION("numbers of what is refused") { numbers.refusal = "is no list of names"; }
+  SECTION("numbers of what is refused") { numbers.refusal = "is not a list of names"; }
   SECTION("more points than a number counts") { numbers.shape = {1ull << 32, 1ull << 32}; }
   SECTION("more points than the file may hold") { numbers.shape = {1ull << 40}; }
   SECTION("a place behind the end of the file") {
     numbers.numbers.reset();
-    numbers.place = std::filesystem::file_size(file) - 15;
+    numbers.location = std::filesystem::file_size(file) - 15;
   }
-  SECTION("a place before which addresses begin anew") { numbers.place = ~0ull - 7; }
-  CHECK_THROWS_WITH(judge(), Catch::Contains("few.h5: makes the HDF5 library give a wrong answer"));
+  SECTION("a place before which addresses begin anew") { numbers.location = ~0ull - 7; }
+  CHECK_THROWS_WITH(judge(), Catch::Contains("few.h5: makes the HDF5 library return wrong values"));
 }
 
 TEST_CASE("Numbers are those that were stored, read from their place or through HDF5", "[hdf5]") {
   const Scratch scratch;
   const std::string file = (scratch / "stored.h5").string();
-  std::vector<double> stored(100 * 150);  // too many to come along with the outline
+  std::vector<double> stored(100 * 150);  // too many values for the outline
   for (std::size_t i = 0; i < stored.size(); ++i) stored[i] = 0.25 * static_cast<double>(i) - 9;
   const auto [type, chunked] =
       GENERATE(std::pair(H5T_IEEE_F64LE, false), std::pair(H5T_IEEE_F64LE, true),
@@ -109,7 +108,7 @@ TEST_CASE("Numbers are those that were stored, read from their place or through 
     H5Pclose(layout);
   }
   const Document document{detail::InputFile(file)};
-  CHECK(document.numeric("a").place.has_value() == (type == H5T_IEEE_F64LE && !chunked));
+  CHECK(document.numeric("a").location.has_value() == (type == H5T_IEEE_F64LE && !chunked));
   std::vector<double> read(stored.size());
   document.numbers("a", read);
   CHECK(read == stored);
@@ -117,9 +116,9 @@ TEST_CASE("Numbers are those that were stored, read from their place or through 
   std::ranges::fill(read, 0);
   document.rows("a", rows, read);
   CHECK(read == stored);
-  // What ends while it is read leaves no numbers.
-  if (document.numeric("a").place) {
-    std::filesystem::resize_file(file, *document.numeric("a").place + 8);
+  // A file that is truncated while it is read is refused.
+  if (document.numeric("a").location) {
+    std::filesystem::resize_file(file, *document.numeric("a").location + 8);
     CHECK_THROWS_WITH(document.numbers("a", read), Catch::Contains("ended while it was read"));
   }
 }
@@ -134,14 +133,14 @@ TEST_CASE("Bytes of an outline are judged before anything is made of them", "[hd
   objects[0].second.kind = Object::Kind::group;
   const std::string whole = detail::bytes_of(objects);
   const auto refused = [&] {
-    CHECK_THROWS_WITH(Document(detail::InputFile(file)), Catch::Contains("a wrong answer"));
+    CHECK_THROWS_WITH(Document(detail::InputFile(file)), Catch::Contains("return wrong values"));
   };
   for (std::size_t size = 0; size < whole.size(); ++size) {
     INFO(size);
     handed_over = whole.substr(0, size);
     refused();
   }
-  // No memory is taken for a count that the rest cannot hold.
+  // No memory is allocated for a count that exceeds the remaining bytes.
   handed_over = whole;
   handed_over.replace(0, sizeof(std::size_t), detail::bytes_of(std::size_t(1) << 40));
   refused();
@@ -173,7 +172,8 @@ TEST_CASE("Of several maps of HDF5 the one that is named is read", "[hdf5]") {
   CHECK(height("") == 1);
   REQUIRE_FALSE(warnings.empty());
   CHECK_THAT(warnings[0],
-             Catch::Contains("channel heights was taken; the others are backward; see `channel`"));
+             Catch::Contains(
+                 "channel heights was read; the others are backward; choose one with `channel`"));
   CHECK(height("backward") == 2);
   CHECK(height("scan/trace") == 4);
   CHECK_THROWS_WITH(height("pressure"), Catch::Contains("'Pa'"));
@@ -235,7 +235,7 @@ TEST_CASE("Attributes of the conventions for climate data make heights of stored
       written(
           {{"_FillValue", -9999}, {"scale_factor", 0.5}, {"add_offset", 10}, {"valid_max", 39}}),
       size);
-  // The unit is a rounded number.
+  // The unit in metres is rounded.
   CHECK(scaled.heights(0, 0) == Approx(10.5e-9).epsilon(1e-15));
   CHECK(scaled.heights(0, 1) == Approx(11e-9).epsilon(1e-15));
   CHECK(std::isnan(scaled.heights(1, 0)));
@@ -246,5 +246,5 @@ TEST_CASE("Attributes of the conventions for climate data make heights of stored
     CHECK_THROWS_WITH(read_surface(written({{name, 2}}), size),
                       Catch::Contains("has an attribute " + std::string(name)));
   CHECK_THROWS_WITH(read_surface(written({}, "_FillValue"), size),
-                    Catch::Contains("has an attribute _FillValue that is not one number"));
+                    Catch::Contains("has an attribute _FillValue that is not a single number"));
 }

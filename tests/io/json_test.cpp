@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JSON values and their text, against an independent reader.
+// JSON values and their text, compared with an independent reader.
 #include "io/json.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places in files beyond 2^31 and 2^32 bytes and numbers, in a file of which only some rows are
-// ever written.
+// Tests offsets beyond 2^31 and 2^32 bytes and numbers, in a sparse file of which only some rows
+// are written.
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "one_of_many.hpp"
@@ -24,8 +24,8 @@ bool takes_no_room_in_advance = false;
 
 }  // namespace
 
-// Takes the place of the C library's: the test asks for more room than disks have free, and
-// imitates file systems that cannot promise it.
+// Replaces the C library's function: the test needs more space than disks have free, so it imitates
+// a file system that cannot reserve space.
 extern "C" int fallocate(int descriptor, int mode, off_t start, off_t size) {
   if (!takes_no_room_in_advance)
     return static_cast<int>(syscall(SYS_fallocate, descriptor, mode, start, size));
@@ -38,7 +38,7 @@ using namespace salebra;
 
 namespace {
 
-// The first and the last of many processes; those between do not exist, and would give zeros.
+// The first and the last of many processes. The others do not exist; they would contribute zeros.
 class FirstAndLast : public detail::Transport {
  public:
   FirstAndLast(Communicator both, int ranks) : both_(std::move(both)), ranks_(ranks) {}
@@ -69,8 +69,8 @@ class FirstAndLast : public detail::Transport {
 
 constexpr Index columns = 65536;
 
-// Whole numbers that float holds exactly and that differ between neighbours in both directions and
-// between the processes.
+// Integers that float represents exactly and that differ between neighbouring cells and between
+// processes.
 double value_at(Index row, Index column) {
   return static_cast<double>((row * 4099 + column * 7) % 8388593);
 }
@@ -97,17 +97,17 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
           "[spread]") {
   const Scratch scratch;
   if (testing::skipped(!has_holes(scratch), "this file system has no sparse files")) return;
-  // 4.4·10^9 numbers a field: 17 GB in float and, behind them, 35 GB in double. Blocks of 80 rows,
-  // one for each process.
+  // 4.4·10^9 numbers per field: 17 GB as float, then 35 GB as double. Each process has 80 rows.
   const Index rows = 66560;
   const int ranks = 832;
   const std::filesystem::path file = scratch / "large.h5";
   takes_no_room_in_advance = true;
   testing::run_ranks(2, [&](const Communicator& both) {
     const Communicator all(std::make_shared<FirstAndLast>(both, ranks));
-    const RowPartition share(all, rows);
+    const RowPartition partition(all, rows);
     const Field mine = rows_of(partition);
-    if (partition.count() != 80 || (!all.is_root() && partition.begin() * columns <= Index{1} << 32))
+    if (partition.count() != 80 ||
+        (!all.is_root() && partition.begin() * columns <= Index{1} << 32))
       throw Error("other rows");
     std::optional<ResultFile> results;
     collectively(all, [&] {
@@ -126,13 +126,13 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
   REQUIRE(stat(file.c_str(), &status) == 0);
   CHECK(status.st_size > 12 * Index{rows} * columns);
   CHECK(status.st_blocks * 512 < status.st_size / 100);
-  // One process after the other, since not every HDF5 library is for threads; one between them
-  // finds a hole.
+  // One process after the other, since not every HDF5 library is thread-safe. A process in between
+  // reads a hole.
   const ResultReader results(file);
   for (const int rank : {0, 416, ranks - 1})
     for (const char* name : {"contact/pressure", "contact/gap"}) {
       const auto process = std::make_shared<testing::OneOfMany>(rank, ranks);
-      const RowPartition share(Communicator(process), rows);
+      const RowPartition partition(Communicator(process), rows);
       const Field found = results.field(name, partition);
       const bool written = rank == 0 || rank == ranks - 1;
       REQUIRE(found.rows() == 80);

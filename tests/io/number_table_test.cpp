@@ -33,7 +33,7 @@ TEST_CASE("The titles of a table name its columns and their units", "[number tab
   INFO(text);
   const NumberTable table = read(scratch, text);
   REQUIRE(table.columns.size() == 2);
-  // A product of two rounded numbers.
+  // The product of value and unit is rounded.
   for (std::size_t i : {0, 1}) {
     CHECK(table.columns[0].at(i) == Approx(1e-3 + 2e-3 * double(i)).epsilon(1e-15).margin(0));
     CHECK(table.columns[1].at(i) == Approx(2e-9 + 2e-9 * double(i)).epsilon(1e-15).margin(0));
@@ -46,7 +46,7 @@ TEST_CASE("A title, unit or comment that would not be used is refused by name", 
       {"time [ms], depth [nm]\n1, 2\n", "'depth [nm]'"},
       {"time [mm], indentation [nm]\n1, 2\n", "'mm'"},
       {"time [ms], indentation [V]\n1, 2\n", "'V'"},
-      {"time [ms], indentation\n1, 2\n", "none of indentation"},
+      {"time [ms], indentation\n1, 2\n", "none for indentation"},
       {"time [ms], time [ms]\n1, 2\n", "two columns time"},
       {"time [ms], psd [m^4]\n1, 2\n", "indentation"},
       {"time [ms], indentation [nm] rms\n1, 2\n", "'rms'"},

@@ -24,9 +24,9 @@ std::size_t files_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// Runs `write` in a child whose files may not exceed a size. Returns the child's exit status: 0
-/// done, 3 IoError, 4 another exception, 128 + signal for a crash. The child leaves through exit(),
-/// so that what HDF5 does at the end of a process is run too.
+/// Runs `write` in a child process with a limit on the size of files. Returns its exit status: 0
+/// success, 3 IoError, 4 another exception, 128 + signal for a crash. The child calls exit(), so
+/// that HDF5's clean-up at the end of a process runs too.
 int status_with_file_limit(rlim_t bytes, const std::function<void()>& write) {
   const pid_t child = fork();
   if (child == 0) {
@@ -82,7 +82,7 @@ TEST_CASE("An output that cannot be written is refused before any work", "[outpu
   std::filesystem::create_symlink(scratch / "nothing", scratch / "link.h5");
   CHECK_THROWS_WITH(require_output(scratch / "link.h5"), Contains("symbolic link"));
   CHECK_NOTHROW(require_output(scratch / "link.h5", {.overwrite = true}));
-  // Nobody, not even root, makes files there.
+  // Nobody, not even root, can create files there.
   CHECK_THROWS_AS(require_output("/proc/results.h5"), IoError);
   CHECK(files_in(scratch.folder()) == 1);
 }
@@ -123,8 +123,8 @@ TEST_CASE("A full disk is an IoError, leaves no file and crashes nothing", "[out
     CHECK(status_with_file_limit(limit, write) == 3);
     CHECK(files_in(scratch.folder()) == 0);
   };
-  // 512² doubles are 2 MiB: the limits cut the file at its beginning, amid the data and just before
-  // their end.
+  // 512² doubles are 2 MiB: the limits cut the file at its beginning, within the data and just
+  // before their end.
   for (const rlim_t limit : {0, 100, 1 << 10, 1 << 20, 3 << 19, (2 << 20) + 100}) {
     check_none(limit, [&] { write_surface(scratch / "surface.h5", flat(512)); });
     if (limit < (2 << 20)) {

@@ -45,7 +45,7 @@ Figure force_figure() {
   return figure;
 }
 
-/// Another folder of programs for the length of a test.
+/// Replaces PATH during a test.
 class SearchPath {
  public:
   explicit SearchPath(const std::string& path) : before_(std::getenv("PATH")) {
@@ -84,9 +84,9 @@ TEST_CASE("A PDF is whole and has one page of the size of its panels", "[plot]")
   const std::string text = content(scratch / "a.pdf");
   CHECK_THAT(text, Catch::StartsWith("%PDF-"));
   CHECK_THAT(text, Catch::EndsWith("%%EOF\n"));
-  // Cairo from 1.17.6 on compresses the dictionary of the page.
+  // Since 1.17.6, Cairo compresses the dictionary of the page, so its text cannot be checked.
   if (text.find("/ObjStm") != std::string::npos) return;
-  // Points of 1/72 inch for a panel of 520 x 390 on the screen, at 100 to the inch.
+  // In points of 1/72 inch: a panel of 520 x 390 pixels at 100 pixels per inch.
   CHECK_THAT(text, Contains("/MediaBox [ 0 0 374 280 ]"));
   CHECK_THAT(text, Contains("/Count 1"));
 }
@@ -114,7 +114,7 @@ TEST_CASE("A PNG has the size of its panels, and maps on logarithmic axes can be
   const auto size_at = [&](std::size_t at) {
     return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
   };
-  // Two panels beside each other at twice 520 × 390.
+  // Two panels side by side, at twice 520 × 390.
   CHECK(size_at(16) == 2 * 2 * 520);
   CHECK(size_at(20) == 2 * 390);
 }
@@ -202,8 +202,8 @@ TEST_CASE(
 
 TEST_CASE("A map of more cells than a picture draws is averaged, each cell about its middle",
           "[plot]") {
-  // 2400 columns at 0.5, 1.5 … are drawn as 1200: the mean of a pair, or the one of it that is a
-  // number.
+  // 2400 columns at 0.5, 1.5 … are drawn as 1200: each is the mean of a pair, or the value of the
+  // pair that is a number.
   PlotImage image;
   for (int i = 0; i < 2400; ++i) image.x.push_back(i + 0.5);
   image.y = {0, 1};
@@ -227,7 +227,7 @@ TEST_CASE("A map of more cells than a picture draws is averaged, each cell about
 
 TEST_CASE("A band is drawn between its limits, the curve through its values", "[plot]") {
   const std::string script = detail::gnuplot_script(force_figure(), detail::PictureFormat::svg);
-  // Columns: x, y, lower and upper limit, in nm and kN.
+  // The columns are x, y, lower and upper limit, in nm and kN.
   CHECK_THAT(script, Contains("\n2 2 1 3\n"));
   CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
 }
@@ -237,7 +237,7 @@ TEST_CASE("A logarithmic axis has more than one number, and its lines stay in it
   Figure figure = force_figure();
   PlotPanel& panel = figure.panels[0];
   panel.y.logarithmic = true;
-  // One power of ten lies between the limits, 140 N and 8 kN but for the room beyond the values.
+  // Only one power of ten lies between the limits, which are 140 N and 8 kN plus a margin.
   panel.curves[0].y = {0.14e3, 2e3, 8e3};
   panel.curves[0].low = panel.curves[0].high = {};
   panel.lines = {{.at = 5e3}, {.at = 7e-9, .vertical = true}, {.at = 5e4}};

@@ -37,8 +37,8 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
     CHECK(surface.undefined_points() == expected.at("undefined_points").get<Index>());
     CHECK_FALSE(surface.periodic);
     const HeightStatistics statistics = height_statistics(surface);
-    // Both sides sum some 10⁵ doubles; SurfaceTopography multiplies by the unit before, salebra
-    // after.
+    // Both sides sum about 10⁵ doubles. SurfaceTopography multiplies by the unit before the sum,
+    // salebra after it.
     CHECK(surface.grid.lx == Approx(number("size_x_m")).epsilon(1e-12));
     CHECK(surface.grid.ly == Approx(number("size_y_m")).epsilon(1e-12));
     CHECK(statistics.minimum == Approx(number("min_m")).epsilon(1e-12));
@@ -99,7 +99,7 @@ TEST_CASE("Text is read in the spellings of many programs", "[read]") {
   check(header + "1.0,2.5,3\n-4,5,6\n");
   check(header + "1,0 2,5 3,0\n-4 5 6\n");
   check(header + "1,0;2,5;3\n-4;5;6\n");
-  // The first row leaves open whether commas are decimal.
+  // The first row does not show whether commas are decimal.
   check(header + "1;2,5;3\n-4;5;6\n");
   check("# Breite: 3 \xb5m\r# H\xf6he: 2 \xb5m\r# Value units: nm\r1 2.5 3\r-4 5 6\r");
   check(
@@ -110,8 +110,8 @@ TEST_CASE("Text is read in the spellings of many programs", "[read]") {
 }
 
 TEST_CASE("Text that is read by pieces has the heights of the whole", "[read]") {
-  // Pieces are of a megabyte: their ends cut lines, numbers and line ends. The reader of a content
-  // in memory has no pieces.
+  // Pieces have a megabyte: their ends cut lines, numbers and line ends. The comparison reads the
+  // content from memory as a whole.
   const Scratch scratch;
   const auto require_same = [&](const std::string& text) {
     const std::filesystem::path file = scratch.file("large.txt", text);
@@ -135,10 +135,10 @@ TEST_CASE("Text that is read by pieces has the heights of the whole", "[read]") 
   require_same("\xef\xbb\xbf# a comment\n" + rows(3000, 60, '\t', "\n"));
   require_same(rows(3001, 61, ' ', "\r\n"));
   require_same(rows(3001, 61, ';', "\r"));
-  require_same(rows(2, 150000, ' ', "\n"));  // lines of more than a piece
+  require_same(rows(2, 150000, ' ', "\n"));  // lines longer than a piece
   const std::string unended = rows(3000, 60, ',', "\n");
   require_same(unended.substr(0, unended.size() - 1));
-  // A point is missing between two tabs in the last line: all is read anew.
+  // A value is missing between two tabs in the last line, so the whole file is read again.
   std::string gaps = rows(3000, 60, '\t', "\n");
   gaps.insert(gaps.rfind('\t'), "\t").erase(gaps.rfind('\t') + 1, gaps.size());
   require_same(gaps + "\n");
@@ -161,10 +161,10 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   CHECK_THAT(message(header + "1,5\n2,5\n"), Contains("line 3") && Contains("decimal"));
   CHECK_THAT(message(header + "1,5 2.5\n1 2\n"), Contains("mixes"));
   CHECK_THAT(message(header + "1.5;2\n2,5;3\n"), Contains("line 4") && Contains("after"));
-  CHECK_THAT(message(header + "1 2 3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
-  CHECK_THAT(message(header + "1;2;3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
-  CHECK_THAT(message(header + "1.5 2\n2.5,3\n"), Contains("line 4") && Contains("otherwise"));
-  CHECK_THAT(message(header + "1.5 2\n2.5;3\n"), Contains("line 4") && Contains("otherwise"));
+  CHECK_THAT(message(header + "1 2 3\n4,5,6\n"), Contains("line 4") && Contains("differently"));
+  CHECK_THAT(message(header + "1;2;3\n4,5,6\n"), Contains("line 4") && Contains("differently"));
+  CHECK_THAT(message(header + "1.5 2\n2.5,3\n"), Contains("line 4") && Contains("differently"));
+  CHECK_THAT(message(header + "1.5 2\n2.5;3\n"), Contains("line 4") && Contains("differently"));
   CHECK_THAT(message(header + "1.5 2\n2,5 3\n"), Contains("line 4") && Contains("after"));
   CHECK_THAT(message(header + "1.5 2\n2 ,5\n"), Contains("line 4") && Contains("decimal"));
   CHECK_THAT(message(header + "1 2 3\n4 5\n"), Contains("line 4") && Contains("2 values"));
@@ -198,7 +198,7 @@ TEST_CASE("XYZ points are put on their grid, whatever their order, or refused", 
   CHECK(surface.heights(1, 0) == 11);
   CHECK(surface.heights(0, 1) == 2);
   CHECK(std::isnan(surface.heights(2, 1)));
-  // A coordinate that begins as that of the line before is another one.
+  // A coordinate may begin with the same digits as that of the line before and yet differ.
   for (const bool turned : {false, true}) {
     std::string text;
     for (const auto& [x, y] : {std::pair("0", "0"), {"0", "0.5"}, {"0.5", "0.5"}, {"0.5", "0"}})
@@ -226,7 +226,7 @@ TEST_CASE("XYZ points with units, and with lines that are missing, are put on th
   CHECK(units.heights(0, 1) == Approx(2e-9));
   CHECK_THROWS_WITH(read("# Lateral units: V\n0 0 1\n0 2 2\n1 0 3\n1 2 4\n"),
                     Contains("'Lateral units: V'"));
-  // One line of twelve is missing; coordinates are rounded to a tenth of a step.
+  // One grid line of twelve is missing; coordinates are rounded to a tenth of a step.
   std::string text;
   for (int ix = 0; ix < 12; ++ix)
     for (int iy = 0; iy < 2 && ix != 5; ++iy)
@@ -307,7 +307,7 @@ TEST_CASE("An entry of a sidecar that is not used is refused if it may change th
   };
   for (const char* key : {"unit", "height_unit", "scale", "z_factor", "pixel_size", "nodata", "Lx"})
     CHECK_THROWS_WITH(read_with("\"" + std::string(key) + "\": 2"),
-                      Contains("entry '" + std::string(key) + "', which is not used"));
+                      Contains("entry '" + std::string(key) + "', which salebra does not apply"));
   for (const char* entry : {"\"serial\": 4711", "\"comment\": \"3 nm of gold\"",
                             "\"measured on date\": \"2024-05-01\"", "\"anything\": true"})
     CHECK_NOTHROW(read_with(entry));
@@ -357,18 +357,18 @@ TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") 
   CHECK_NOTHROW(read_surface(measured / "sur-2.sur", {.height_unit = "mm"}));
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, content.size() - 1))),
                   InvalidInput);
-  // A private zone of more than 32767 bytes moves the heights beyond the end.
+  // A private zone of more than 32767 bytes puts the heights beyond the end.
   refused(337, '\x90', "truncated");
   refused(290, 4, "inversion");
   refused(111, 0x7f, "truncated");      // points along x
-  refused(111, '\x80', "points");       // a negative number of them
-  refused(98, 8, "bits");               // bits of a point
+  refused(111, '\x80', "points");       // a negative number of points
+  refused(98, 8, "bits");               // bits per point
   refused(14, 2, "one surface");        // objects in the file
   refused(212, 'V', "unit of length");  // unit of heights
-  refused(180, '\0', "one axis alone");
+  refused(180, '\0', "only one axis");
   CHECK_THROWS_WITH(read_surface(scratch.file("a.sur", "DSCOMPRESSED" + content.substr(12))),
-                    Contains("points are compressed"));
-  // A file without the unit of its heights takes it from the user.
+                    Contains("is a compressed SUR file"));
+  // If a file states no unit of its heights, the user gives it.
   std::string bare = content;
   bare.replace(212, 16, 16, ' ');
   const Field stated = read_surface(measured / "sur-2.sur").heights;
@@ -392,7 +392,7 @@ TEST_CASE("A SUR file of a replica is turned over, with the axis that it names",
   CHECK(same(read(1), -plain));
   CHECK(same(read(2), -plain.colwise().reverse()));
   CHECK(same(read(3), -plain.rowwise().reverse()));
-  // Each axis has a unit of its own: 16 characters, x at 180, y at 196.
+  // Each axis has its own unit of 16 characters: x at 180, y at 196.
   const auto size_with = [&](std::size_t place) {
     std::string changed = content;
     changed.replace(place, 16, std::string("m").append(15, ' '));
@@ -427,11 +427,11 @@ TEST_CASE("Heights whose slopes no surface has are doubted as they are read", "[
   const auto forgotten = warnings_of("");
   REQUIRE(forgotten.size() == 1);
   CHECK_THAT(forgotten[0], Contains("scan.txt: rms slope 1.4") &&
-                               Contains("heights in \u00b5m? rms slope would be 0.14") &&
+                               Contains("heights in \u00b5m? Then the rms slope would be 0.14") &&
                                Contains("`height_unit`"));
   CHECK(warnings_of("", "um").empty());
   CHECK(warnings_of("# Value units: um\n").empty());
-  // A unit that the file names itself is no matter of the option.
+  // If the file names the unit, the warning does not mention the option.
   const auto named = warnings_of("# Value units: mm\n");
   REQUIRE(named.size() == 1);
   CHECK_THAT(named[0], Contains("heights in \u00b5m?") && !Contains("height_unit"));
@@ -526,10 +526,10 @@ TEST_CASE("A line of the header that names a length and is not used is quoted", 
     const auto warnings = warnings_of("Measured on Monday\n" + line);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("scan.txt: line 2, '" + line +
-                                    "', has a unit or a number that is not understood"));
+                                     "', has a unit or a number that is not known"));
   }
   CHECK(warnings_of("Sampling: 1.1 um\nText\nTip radius 2 um\nFilter 8 um").size() == 1);
-  // Nothing of it is skipped in silence.
+  // Without `height_unit` the file is refused.
   CHECK_THROWS_WITH(read_surface(scratch.file("scan.txt", "Sampling: 1.1 um\n0 1e-9\n1e-9 0\n"),
                                  {.size_x = 1e-6, .size_y = 1e-6}),
                     Contains("'Sampling: 1.1 um'") && Contains("`height_unit`"));
@@ -539,7 +539,7 @@ TEST_CASE("A line of the header that names a length and is not used is quoted", 
     INFO(line);
     CHECK(warnings_of(line).empty());
   }
-  // What a warning quotes cannot command a terminal.
+  // Quotes in warnings contain no control characters for a terminal.
   CHECK_THAT(warnings_of("\x1b[31m 5 um").at(0), Contains("'\\x1b[31m 5 um'"));
 }
 
@@ -552,7 +552,7 @@ TEST_CASE("An empty last field is an undefined point", "[read]") {
   REQUIRE(later.rows() == 4);
   CHECK(std::isnan(later(3, 1)));
   CHECK(later(0, 2) == 8);
-  // The first rows count too.
+  // The first rows may be the shorter ones.
   const Field first = read("1,5,0,\n3.5,4,0,\n5,6.5,0,7\n8,9,0,\n");
   REQUIRE(first.rows() == 4);
   CHECK(std::isnan(first(3, 0)));
@@ -561,9 +561,9 @@ TEST_CASE("An empty last field is an undefined point", "[read]") {
   CHECK(std::isnan(first(3, 3)));
   CHECK(first(0, 1) == 3.5);
   CHECK(first(1, 3) == 9);
-  // Two of them.
+  // Two values may be undefined.
   CHECK(std::isnan(read("1;2;3;4\n4;5;;\n")(3, 1)));
-  // A separator behind every row says nothing, and there a value less is missing.
+  // If every row ends with a separator, it has no meaning, and a shorter row lacks a value.
   CHECK(read("1;2;3;4;\n4;5;6;7;\n").rows() == 4);
   CHECK_THROWS_WITH(read("1;2;3;\n4;5;\n"), Contains("holds 2 values"));
   CHECK_THROWS_WITH(read("1;2;3\n4;5\n"), Contains("holds 2 values"));
@@ -579,17 +579,17 @@ TEST_CASE("Marks of thousands are read where they can be nothing else", "[read]"
         "1 234,5;2,5;-12 345,25", "1 234.5\t2.5\t-12 345.25", "1'234.5 2.5 -12'345.25",
         "1\u202f234,5;2,5;-12\u202f345,25", "\"1,234.5\",\"2.5\",\"-12,345.25\""}) {
     INFO(row);
-    // Two rows of points of which the first is the same do not fill a grid of x, y and z.
+    // The two rows are equal, so they cannot be points x, y, z that fill a grid.
     const Field heights = read("# Width: 3 um\n# Height: 2 um\n" + row + "\n" + row + "\n");
     REQUIRE(heights.rows() == 3);
     CHECK(heights(0, 0) == 1234.5);
     CHECK(heights(1, 1) == 2.5);
     CHECK(heights(2, 1) == -12345.25);
   }
-  // A mark that other lines show counts where it stands alone.
+  // A thousands separator seen in another line also applies to a number with this mark alone.
   CHECK(read("1,234.5;2.5\n1,234;2.5\n")(0, 1) == 1234);
   CHECK_THROWS_WITH(read("1,234;2\n2,345.5;2.5\n"), Contains("line 2") && Contains("','"));
-  CHECK_THROWS_WITH(read("1,234.5;2'000.5\n"), Contains("another mark of thousands"));
+  CHECK_THROWS_WITH(read("1,234.5;2'000.5\n"), Contains("another thousands separator"));
 }
 
 TEST_CASE("Blocks of rows may be channels", "[read]") {
@@ -599,7 +599,7 @@ TEST_CASE("Blocks of rows may be channels", "[read]") {
   };
   const std::string block = "1.5 2 4 8\n3 4 7 5\n";
   CHECK_THROWS_WITH(read(block + "# second\n" + block), Contains("line 3, '# second'"));
-  CHECK_THROWS_WITH(read(block + "\n" + block), Contains("the empty line behind row 2"));
+  CHECK_THROWS_WITH(read(block + "\n" + block), Contains("the empty line after row 2"));
   CHECK(read("1.5 2 4 8\n\n3 4 7 5\n").cols() == 2);
   CHECK(read(block + "\n# end\n").cols() == 2);
 }
@@ -642,7 +642,7 @@ TEST_CASE("Marks of instruments are undefined points", "[read]") {
       CHECK(std::isnan(heights(2, 1)));
       CHECK(heights(1, 1) == 4.5);
     }
-    // In the first place of the first line too, with decimal commas.
+    // The mark may also be the first value of the first line, with decimal commas.
     const Field first = read(mark + ";1,4674;1,445;2\n2,5;1;" + mark + ";2\n");
     REQUIRE(first.cols() == 2);
     CHECK(std::isnan(first(0, 0)));
@@ -650,7 +650,7 @@ TEST_CASE("Marks of instruments are undefined points", "[read]") {
     CHECK(std::isnan(first(2, 1)));
   }
   CHECK(std::isnan(read("***;***;***;***\n1;2;3;4\n")(1, 0)));
-  // Rules and titles of a header are none.
+  // Rules of dashes and titles in a header are no marks.
   CHECK(read("*** Heights ***\nX Y\n--- ---\n-------\n1 2\n3 4\n").cols() == 2);
-  CHECK_THROWS_WITH(read("1;abc;2\n"), Contains("line 1 holds 'abc', which is no number"));
+  CHECK_THROWS_WITH(read("1;abc;2\n"), Contains("line 1 holds 'abc', which is not a number"));
 }

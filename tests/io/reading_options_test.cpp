@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the user knows better than the file, and what is done to heights before they are used.
+// Reading options: they correct what a file states, and change heights before use.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-/// 60 by 40 points, 1 µm apart, of gentle waves.
+/// A surface of gentle waves: 60 by 40 points, 1 µm apart.
 Surface waves() {
   Surface surface{{60, 40, 60e-6, 40e-6}, Field(60, 40), false, "test"};
   for (Index ix = 0; ix < 60; ++ix)
@@ -85,7 +85,7 @@ TEST_CASE("A transposed file has its axes exchanged, with their sizes", "[read]"
   CHECK(surface.grid == Grid2D{3, 2, 6e-6, 4e-6});
   CHECK(surface.heights(2, 0) == 5);
   CHECK(surface.heights(0, 1) == 2);
-  // Sizes that suit the other order better are doubted; square cells are not.
+  // Sizes that suit exchanged axes better give a warning; square cells do not.
   std::string rows;
   for (int iy = 0; iy < 32; ++iy) {
     for (int ix = 0; ix < 24; ++ix) rows += "0 ";
@@ -95,8 +95,8 @@ TEST_CASE("A transposed file has its axes exchanged, with their sizes", "[read]"
   const Reading doubted = read(array, {.size_x = 35.2e-6, .size_y = 31.2e-6});
   REQUIRE(doubted.warnings.size() == 1);
   CHECK_THAT(doubted.warnings[0], Contains("24 x 32 points along x and y, cells of 1.47 \u00b5m x "
-                                          "975 nm; `transpose` makes them 1.1 \u00b5m x "
-                                          "1.3 \u00b5m"));
+                                           "975 nm; with `transpose` they are 1.1 \u00b5m x "
+                                           "1.3 \u00b5m"));
   CHECK(read(array, {.transpose = true, .size_x = 35.2e-6, .size_y = 31.2e-6}).warnings.empty());
   CHECK(read(array, {.size_x = 24e-6, .size_y = 32e-6}).warnings.empty());
 }
@@ -111,18 +111,18 @@ TEST_CASE("Spikes are named with what they do, or taken out", "[read]") {
   CHECK(kept.surface.undefined_points() == 0);
   REQUIRE(kept.warnings.size() == 1);
   CHECK_THAT(kept.warnings[0],
-             Contains("1 point stands alone, up to 8 \u00b5m above its neighbours, "
-                      "and carries the first contacts; `despike`"));
+             Contains("1 point is isolated, up to 8 \u00b5m above its neighbours, "
+                      "and would touch first; `despike`"));
   const Reading despiked = read(scratch / "scan.h5", {.despike = 6});
   CHECK(despiked.surface.undefined_points() == 2);
   CHECK(std::isnan(despiked.surface.heights(7, 9)));
   REQUIRE(despiked.warnings.size() == 1);
   CHECK_THAT(despiked.warnings[0], Contains("2 points far from their neighbours, up to"));
-  // A pit carries nothing.
+  // A pit touches nothing, so it gives no warning.
   surface.heights(7, 9) -= 8e-6;
   write_surface(scratch / "pit.h5", surface);
   CHECK(read(scratch / "pit.h5", {}).warnings.empty());
-  // A generated surface has no instrument.
+  // A periodic surface is generated and has no spikes of an instrument.
   surface.heights(7, 9) += 8e-6;
   surface.periodic = true;
   write_surface(scratch / "periodic.h5", surface);
@@ -141,7 +141,7 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
   REQUIRE(filled_few.warnings.size() == 1);
   CHECK_THAT(
       filled_few.warnings[0],
-      Contains("9 points of 2400 (0.38 %) without a height, filled by the smoothest surface"));
+      Contains("9 points of 2400 (0.38 %) had no height; the smoothest surface was filled in"));
 
   surface.heights.block(20, 0, 6, 30).setConstant(undefined);
   write_surface(scratch / "many.h5", surface);
@@ -152,9 +152,9 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
     refusal = error.what();
   }
   CHECK_THAT(refusal, Contains("many.h5: has 189 undefined points of 2400 (7.9 %), holes up to 6 "
-                               "\u00b5m wide; `crop` 26um,0um,60um,40um takes the largest part "
-                               "without any, 57 % of the area; `fill`"));
-  // What is offered serves, and what is cropped need not be filled.
+                               "\u00b5m wide; `crop` 26um,0um,60um,40um selects the largest "
+                               "part without undefined points, 57 % of the area; `fill`"));
+  // The suggested crop works, and then nothing needs to be filled.
   const Rectangle offered{26e-6, 0, 60e-6, 40e-6};
   const Reading part =
       read(scratch / "many.h5", {.crop = offered, .undefined = Undefined::fill_few});
@@ -163,7 +163,7 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
   CHECK(part.surface.grid.ny == 40);
   CHECK(part.surface.grid.lx == Approx(34e-6).epsilon(1e-14));
   CHECK(part.surface.heights(0, 5) == whole.heights(26, 5));
-  // For a part, the offer is in coordinates of the whole.
+  // For a cropped part, the suggestion is in coordinates of the whole surface.
   CHECK_THROWS_WITH(read(scratch / "many.h5", {.crop = Rectangle{15e-6, 2e-6, 40e-6, 40e-6},
                                                .undefined = Undefined::fill_few}),
                     Contains("`crop` 26um,2um,40um,40um"));
@@ -217,7 +217,7 @@ TEST_CASE("An importer is asked for files of unknown formats only", "[read]") {
     REQUIRE(reading.warnings.size() == 1);
     CHECK_THAT(reading.warnings[0], Contains(file.filename().string() + ": channel 3 of several"));
   }
-  // What can be read in two ways is not guessed by another program either.
+  // The importer is not called for a file that can be read in two ways.
   CHECK_THROWS_WITH(read_surface(ambiguous), Contains("decimal"));
   CHECK(asked != ambiguous);
   set_surface_importer(import_nothing);

@@ -56,7 +56,7 @@ TEST_CASE("Results are read back as they were written", "[result file]") {
   CHECK(reader.field("damping/map")(1, 0) == 4);
   CHECK(reader.text_attribute("damping", "note") == "a note");
   CHECK(reader.attributes("damping") == std::vector<std::string>{"note"});
-  // A dimension scale and what lies on it, without what HDF5 ties them together by.
+  // Attributes of a dimension scale and of a dataset on it, without HDF5's own references.
   for (const char* name : {"damping/force", "damping/damping_constant"})
     CHECK(reader.attributes(name) == std::vector<std::string>{"long_name", "units"});
   CHECK(reader.attributes("damping/converged") ==
@@ -76,9 +76,9 @@ TEST_CASE("Results are read back as they were written", "[result file]") {
 
 TEST_CASE("A file larger than what its maker keeps in memory is read back as it was written",
           "[result file]") {
-  // Pages of 64 kB go to the disk by the megabyte, and a megabyte at once goes there directly: the
-  // long lists, whose ends share pages with what is written before and after them. Lists of all
-  // lengths and the attributes between them come back to pages that have left.
+  // Pages of 64 kB are written to the disk a megabyte at a time; lists of a megabyte or more are
+  // written directly, and their ends share pages with data before and after. Lists of all lengths
+  // and the attributes between them change pages that are already on the disk.
   const Scratch scratch;
   ResultFile results(scratch / "large.h5", {});
   const auto values = [](std::size_t k, std::size_t count) {
@@ -106,7 +106,7 @@ TEST_CASE("A file larger than what its maker keeps in memory is read back as it 
 }
 
 TEST_CASE("Datasets hang on HDF5 dimension scales and carry units and names", "[result file]") {
-  // What xarray and h5netcdf go by, asked of the HDF5 library itself.
+  // The HDF5 library itself must report what xarray and h5netcdf rely on.
   const Scratch scratch;
   write_example(scratch / "results.h5");
   const hid_t file = H5Fopen((scratch / "results.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -139,7 +139,8 @@ TEST_CASE("A dataset without unit, coordinate or the right shape is refused", "[
   CHECK_THROWS_WITH(group.dataset("force", three, {"pressure"}, "", "force"), Contains("units"));
   CHECK_THROWS_WITH(group.coordinate("pressure", three, "Pa", "pressure"), Contains("already"));
   group.dataset("force", three, {"pressure"}, "N", "force");
-  CHECK_THROWS_WITH(group.dataset("gap", three, {"force"}, "m", "gap"), Contains("no coordinate"));
+  CHECK_THROWS_WITH(group.dataset("gap", three, {"force"}, "m", "gap"),
+                    Contains("not a coordinate"));
   results.commit();
   CHECK_THROWS_AS(group.scalar("late", 1, "m", "late"), InvalidInput);
   CHECK_THROWS_AS(results.group("late"), InvalidInput);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One scan as the programs of instruments write it.
+// The same scan in the variants that programs of instruments write.
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -38,7 +38,7 @@ std::string matrix(const std::string& separator, char point, const std::string& 
   return text;
 }
 
-/// Points, of which the undefined have `mark` for z, or are left out where it is empty.
+/// The scan as points. Undefined points have `mark` as z; they are left out if `mark` is empty.
 std::string points(const std::string& separator, char point, const std::string& mark) {
   std::string text;
   for (Index iy = 0; iy < rows; ++iy)
@@ -110,7 +110,7 @@ TEST_CASE("One scan in the files of many programs is one surface", "[read]") {
   const Surface surface = read_surface(scratch.file("scan.dat", content), options);
   REQUIRE(surface.grid.nx == columns);
   REQUIRE(surface.grid.ny == rows);
-  // Coordinates have three digits, and the step is that of the last.
+  // Coordinates have three digits, and the step follows from the last coordinate.
   CHECK(surface.grid.dx() == Approx(1e-6 * pixel_x).epsilon(1e-12));
   CHECK(surface.grid.dy() == Approx(1e-6 * pixel_y).epsilon(1e-12));
   for (Index ix = 0; ix < columns; ++ix)
@@ -138,7 +138,7 @@ TEST_CASE("A row that begins with an empty field is a row", "[read]") {
   CHECK(std::isnan(tabs(0, 0)));
   CHECK(std::isnan(tabs(2, 1)));
   CHECK(tabs(3, 1) == 8);
-  // Tabs that line columns up separate as blanks do, while every row has as many values.
+  // Several tabs that align columns count as one separator if all rows then have equal length.
   CHECK(read("1\t\t2\n3\t4\n").rows() == 2);
 }
 
@@ -148,18 +148,18 @@ TEST_CASE("Packed files that are cut, damaged or without end are refused", "[rea
   const auto read = [&](const std::string& content) {
     read_surface(scratch.file("scan.gz", content));
   };
-  CHECK_NOTHROW(read(packed + std::string(512, '\0')));  // padding of a tape
+  CHECK_NOTHROW(read(packed + std::string(512, '\0')));  // padding, as tapes have it
   CHECK_THROWS_WITH(read(packed.substr(0, packed.size() - 9)), Contains("truncated or damaged"));
   CHECK_THROWS_WITH(read(packed.substr(0, 40)), Contains("truncated or damaged"));
   std::string damaged = packed;
   damaged[packed.size() - 6] ^= 1;  // in the checksum
   CHECK_THROWS_WITH(read(damaged), Contains("truncated or damaged"));
-  // Zeros shrink a thousand times: 400 MB in members of 16, of which one is packed.
+  // Zeros shrink a thousandfold: 400 MB in 25 copies of one packed member of 16 MiB.
   const std::string zeros = gzip(std::string(std::size_t{16} << 20, '\0'));
   std::string members;
   for (int k = 0; k < 25; ++k) members += zeros;
   CHECK_THROWS_WITH(read(members), Contains("unpacks to more than"));
-  // 36 million heights of few bytes each become doubles, in 30 to 90 MB of content.
+  // 36 million heights become doubles, though they need few bytes each in 30 to 90 MB of content.
   const std::string row = "0 0 0\n";
   std::string text;
   for (int k = 0; k < 1'000'000; ++k) text += row;
@@ -174,5 +174,5 @@ TEST_CASE("Packed files that are cut, damaged or without end are refused", "[rea
     CHECK_THROWS_WITH(read(bomb), Contains("unpacks to more than"));
   }
   CHECK_THROWS_WITH(read(std::string("\xff\xfe") + "1\0\xd8"), Contains("truncated"));
-  CHECK_THROWS_WITH(read("\xfe\xff\xd8" + std::string(3, '\0')), Contains("no UTF-16"));
+  CHECK_THROWS_WITH(read("\xfe\xff\xd8" + std::string(3, '\0')), Contains("begins like UTF-16"));
 }

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-/// A folder of its own for one test, gone at its end.
+/// A temporary folder for one test, which the destructor removes.
 class Scratch {
  public:
   Scratch() : folder_(std::filesystem::temp_directory_path() / "salebra-test-XXXXXX") {
@@ -24,7 +24,7 @@ class Scratch {
 
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
-  /// A file of that name with that content.
+  /// Writes a file with this content and returns its path.
   std::filesystem::path file(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return folder_ / name;

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <salebra/base/error.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
@@ -26,7 +26,7 @@ namespace {
 
 const Provenance provenance{.command_line = "salebra", .created = "2026-01-01T00:00:00Z"};
 
-// A surface of any heights, or the rows of one process of it.
+// A surface of arbitrary heights, or the rows of one process.
 Surface surface_of(Index nx, Index ny, const Communicator& ranks = {}) {
   Surface surface{{nx, ny, 1e-6, 2e-6}, {}, true, "a test", ranks};
   const RowPartition partition = surface.partition();
@@ -43,7 +43,7 @@ std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(input), {}};
 }
 
-// Empty for files of the same bytes.
+// Describes the first difference of two files; empty if their bytes are equal.
 std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
   const std::string first = content_of(a), second = content_of(b);
   if (first == second && !first.empty()) return "";
@@ -59,7 +59,7 @@ bool same_bits(const Field& a, const double* b) {
          std::memcmp(a.data(), b, static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-// Fields, and what comes before, between and after them.
+// Writes fields, and other data before, between and after them.
 void write_results(const std::filesystem::path& file, const Surface& surface) {
   std::optional<ResultFile> results;
   const Field tripled = 3 * surface.heights;
@@ -79,7 +79,7 @@ void write_results(const std::filesystem::path& file, const Surface& surface) {
   results->commit();
 }
 
-// What ranks throw: the same on all of them.
+// The message of the exception, which all processes must throw.
 std::string failure_on_all(int ranks, const std::function<void(const Communicator&)>& body) {
   std::vector<std::string> failures(static_cast<std::size_t>(ranks));
   run_ranks(ranks, [&](const Communicator& all) {
@@ -103,8 +103,8 @@ bool hdf5_lacks_threads() {
 
 TEST_CASE("The file of a spread surface is byte for byte that of one process", "[spread]") {
   const Scratch scratch;
-  // Fields smaller and larger than the blocks in which HDF5 and the image of a file keep bytes;
-  // ranks without rows.
+  // Fields smaller and larger than the blocks of HDF5 and of PagedFile. Some have processes
+  // without rows.
   const auto [nx, ny] =
       GENERATE(std::pair<Index, Index>(16, 3), std::pair<Index, Index>(33, 7),
                std::pair<Index, Index>(128, 65), std::pair<Index, Index>(101, 512));
@@ -127,7 +127,7 @@ TEST_CASE("The file of a spread surface is byte for byte that of one process", "
 TEST_CASE("Processes read their rows of a surface in any format", "[spread]") {
   if (hdf5_lacks_threads()) return;
   const Scratch scratch;
-  // Small fields come with the outline of a file, large ones are read by rows.
+  // Small fields are read with the outline of a file, large ones by rows.
   const Surface whole = surface_of(GENERATE(17, 301), 250);
   const std::string name = GENERATE("surface.h5", "surface.txt", "surface.npy");
   write_surface(scratch / name, whole);
@@ -168,10 +168,11 @@ TEST_CASE("Processes read their rows of packed fields and of small ones", "[spre
     H5Fclose(made);
   }
   run_ranks(GENERATE(1, 3), [&](const Communicator& all) {
-    const RowPartition share(all, nx);
+    const RowPartition partition(all, nx);
     const Field rows = ResultReader(file).field("p", partition);
     for (Index k = 0; k < rows.size(); ++k)
-      if (rows.data()[k] != static_cast<double>(partition.begin() * ny + k)) throw Error("another row");
+      if (rows.data()[k] != static_cast<double>(partition.begin() * ny + k))
+        throw Error("another row");
   });
 }
 
@@ -179,7 +180,7 @@ TEST_CASE("A failure of one process while a file is written is thrown on all and
           "[spread]") {
   const Scratch scratch;
   const int ranks = GENERATE(2, 3, 4);
-  // The last process has rows of another surface, found when all others have written theirs.
+  // The last process has rows of another surface, which shows after all others have written theirs.
   const std::string wrong = failure_on_all(ranks, [&](const Communicator& all) {
     Surface surface = surface_of(100, 50, all);
     if (all.rank() == ranks - 1) surface.heights.conservativeResize(3, 50);
@@ -195,7 +196,7 @@ TEST_CASE("A failure of one process while a file is written is thrown on all and
   });
   CHECK_THAT(shape, Contains("points do not match the grid"));
 
-  // The root finds no room.
+  // The root has no space on the disk.
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto old = std::signal(SIGXFSZ, SIG_IGN);
@@ -210,7 +211,7 @@ TEST_CASE("A failure of one process while a file is written is thrown on all and
   CHECK_THAT(full, Contains("cannot be written"));
   CHECK(std::filesystem::is_empty(scratch.folder()));
 
-  // The name is taken, which the root alone sees.
+  // The file exists, which only the root checks.
   scratch.file("out.h5", "there");
   const std::string taken = failure_on_all(ranks, [&](const Communicator& all) {
     write_surface(scratch / "out.h5", surface_of(100, 50, all));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of formats against docs/formats.md, and Gwyddion's own format byte by byte.
+// Compares the table of formats with docs/formats.md, and tests Gwyddion's own format byte by byte.
 #include "io/surface_formats.hpp"
 
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Components of Gwyddion's containers, written here without the writer.
+/// Components of Gwyddion's containers, made independently of the writer.
 template <class T>
 std::string raw(T value) {
   return std::string(reinterpret_cast<const char*>(&value), sizeof value);
@@ -50,7 +50,7 @@ std::string reals(const std::string& key, const std::vector<double>& values) {
 std::string unit(const std::string& key, const std::string& value) {
   return member(key, "GwySIUnit", text("unitstr", value));
 }
-/// Three by two points on 3 µm by 1 µm.
+/// A channel of three by two points on 3 µm by 1 µm.
 std::string channel(const std::string& key, const std::string& height_unit,
                     const std::vector<double>& values) {
   return member(key, "GwyDataField",
@@ -68,7 +68,7 @@ TEST_CASE("The table of docs/formats.md is that of the program", "[formats]") {
   std::ifstream page(SALEBRA_FORMATS_PAGE);
   REQUIRE(page);
   std::vector<std::string> rows;
-  // The first table of the page.
+  // Read the first table of the page.
   for (std::string line; std::getline(page, line) && (rows.empty() || line.starts_with("|"));)
     if (line.starts_with("| ") && !line.starts_with("| format |")) rows.push_back(line);
   std::vector<std::string> expected;
@@ -89,8 +89,8 @@ TEST_CASE("The table of docs/formats.md is that of the program", "[formats]") {
 
 TEST_CASE("A file of Gwyddion: the first channel of heights, its mask, its size", "[formats]") {
   const Scratch scratch;
-  // Components of every type stand before and between those that are read; channel 10 comes after
-  // 2.
+  // Components of every type come before and between those that are read; channel 10 follows
+  // channel 2.
   const std::string others = name("/flag") + 'b' + '\1' + name("/letter") + 'c' + 'x' +
                              name("/long") + 'q' + raw(std::int64_t{1}) + name("/letters") + 'C' +
                              raw(std::uint32_t{2}) + "ab" + name("/numbers") + 'I' +
@@ -128,18 +128,18 @@ TEST_CASE("Of several channels of Gwyddion the one that is named is read", "[for
   };
   CHECK(height("") == 2);
   REQUIRE_FALSE(warnings.empty());
-  CHECK_THAT(warnings[0], Contains("channel 2 (Trace) was taken; the others are 3 (Retrace), 5 "
-                                  "(Retrace); see `channel`"));
+  CHECK_THAT(warnings[0], Contains("channel 2 (Trace) was read; the others are 3 (Retrace), 5 "
+                                   "(Retrace); choose one with `channel`"));
   warnings.clear();
   CHECK(height("Trace") == 2);
   CHECK(height("5") == 5);
   for (const std::string& warning : warnings) CHECK_THAT(warning, !Contains("channel"));
   CHECK_THROWS_WITH(height("Retrace"), Contains("name of several channels"));
   CHECK_THROWS_WITH(height("4"), Contains("channel: 4 is no channel of") && Contains("0 (Error)"));
-  CHECK_THROWS_WITH(height("Error"), Contains("'V', which is no unit of length"));
+  CHECK_THROWS_WITH(height("Error"), Contains("'V', which is not a unit of length"));
   write_surface(scratch / "one.gsf", read_surface(file));
   CHECK_THROWS_WITH(read_surface(scratch / "one.gsf", {.channel = "2"}),
-                    Contains("of a format that holds one surface"));
+                    Contains("a format that holds only one surface"));
 }
 
 TEST_CASE("A file of Gwyddion without units is in metres, or as the user says", "[formats]") {
@@ -203,7 +203,7 @@ TEST_CASE("What is written for Gwyddion is a container of its data fields", "[fo
   CHECK(written.substr(0, 21) ==
         "GWYP" + name("GwyContainer") + raw(static_cast<std::uint32_t>(written.size() - 21)));
   CHECK_THAT(written, Contains(std::string("/0/meta\0oGwyContainer", 21)));
-  // Every byte belongs to what the reader finds: one less is one too few.
+  // The reader needs every byte: a file without its last byte is refused.
   CHECK(read_surface(scratch / "a.gwy").undefined_points() == 1);
   CHECK_THROWS_AS(read_surface(scratch.file("cut.gwy", written.substr(0, written.size() - 1))),
                   InvalidInput);
@@ -218,20 +218,20 @@ TEST_CASE("Damaged files of Gwyddion are refused", "[formats]") {
     return gwy(member("/0/data", "GwyDataField", content));
   };
   const auto [content, expected] = GENERATE_REF(table<std::string, std::string>({
-      {"GWYP", "without an end"},
+      {"GWYP", "that does not end"},
       {"GWYP" + object("GwyBrick", ""), "GwyContainer"},
       {"GWYP" + name("GwyContainer") + raw(much), "declares more bytes"},
-      {gwy(""), "holds no channel"},
+      {gwy(""), "not contain a channel"},
       {gwy(channel("/0/data", "V", hills)), "'V'"},
-      {gwy(channel("/0/data", "m", {1, 2})), "another number"},
-      {gwy(channel("/0/data", "m", hills) + channel("/0/mask", "", {1})), "another number"},
+      {gwy(channel("/0/data", "m", {1, 2})), "a different number"},
+      {gwy(channel("/0/data", "m", hills) + channel("/0/mask", "", {1})), "a different number"},
       {gwy(name("/x") + '?'), "unknown type"},
       {gwy(name("/x") + 'D' + raw(much)), "declares more bytes"},
       {gwy(name("/x") + 'Z' + raw(much)), "unknown type"},
-      {gwy(name("/x") + 'S' + raw(much) + "no end"), "without an end"},
+      {gwy(name("/x") + 'S' + raw(much) + "no end"), "that does not end"},
       {field(whole("xres", 0) + whole("yres", 2) + reals("data", {})), "0 x 2"},
       {field(whole("xres", 65536) + whole("yres", 65536) + reals("data", {})), "65536 x 65536"},
-      {field(facts), "another number"},
+      {field(facts), "a different number"},
       {field(real("xres", 3) + whole("yres", 2) + reals("data", hills)), "xres"},
       {field(whole("xres", 3) + whole("yres", 2) + reals("data", hills)), "xreal"},
       {field(facts + reals("data", {1, 2, 3, 4, 5, INFINITY})), "infinite"},
@@ -239,7 +239,7 @@ TEST_CASE("Damaged files of Gwyddion are refused", "[formats]") {
   }));
   INFO(expected);
   CHECK_THROWS_WITH(read_surface(scratch.file("damaged.gwy", content)), Contains(expected));
-  // Objects within objects, 1000 deep: those that are not asked for are not looked into.
+  // Objects nested 1000 deep do no harm: objects that are not needed are not parsed.
   std::string deep;
   for (int i = 0; i < 1000; ++i) deep = member("a", "GwyContainer", deep);
   CHECK_NOTHROW(read_surface(scratch.file("deep.gwy", gwy(deep + channel("/0/data", "m", hills)))));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts with heights as instruments write them, drawn by seed: each is read right, or refused.
+// Random texts with heights in the styles of instruments: each must be read correctly or refused.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ using namespace salebra;
 
 namespace {
 
-/// Draws from lists, the same on every machine.
+/// Draws random entries of lists, the same on every machine.
 class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
@@ -214,7 +214,7 @@ constexpr const char* other_titles[]{
     "Reflet",    "Brightness",      "Luminosit\u00e9", "Phase", "kiroku", "Luftdruck", "Helligkeit",
     "Score",     "Temperatur"};
 
-/// Lines that say nothing about the heights, as far as a person can tell.
+/// Lines that a person would recognise as irrelevant to the heights.
 constexpr const char* distractors[]{"Date: 2026-03-17",
                                     "Datum: 17.03.2026 10:30",
                                     "Date : 17/03/2026",
@@ -287,7 +287,7 @@ constexpr const char* distractors[]{"Date: 2026-03-17",
                                     "[Header]",
                                     "Licence no.: 99812"};
 
-/// Lines that change the numbers, and the word of each that a refusal has to name.
+/// Lines that change the meaning of the numbers, and the word that a refusal must quote.
 constexpr const char* changes[][2]{{"Z scale: 2.5", "scale"},
                                    {"Faktor: 2,5", "Faktor"},
                                    {"Multiplikator = 2.5", "Multiplikator"},
@@ -309,8 +309,8 @@ constexpr const char* changes[][2]{{"Z scale: 2.5", "scale"},
 struct Case {
   std::string text;
   std::string said;     ///< the text with LF, in UTF-8
-  bool clear = true;    ///< a person would read it
-  std::string culprit;  ///< in the refusal of one that is not clear; empty where that is open
+  bool clear = true;    ///< a person could read it
+  std::string culprit;  ///< must be quoted if an unclear text is refused; empty: not prescribed
   bool profile = false;
   int nx = 0, ny = 1;
   double size_x = 0, size_y = 0;
@@ -376,7 +376,7 @@ class Writer {
     return quoted_ ? '"' + text + '"' : text;
   }
 
-  /// The culprit of the first that is drawn is named.
+  /// Marks the text as unclear. The refusal must quote the culprit of the first call.
   void unclear(const std::string& culprit) {
     if (result_.clear)
       result_.culprit = culprit;
@@ -480,7 +480,7 @@ class Writer {
                                         : order[i] == 2 || order[i] == 5 ? vertical_.word
                                                                          : "");
       lines_ += '\n';
-      // Origin has a line of comments on the columns.
+      // The program Origin writes a line of comments on the columns.
       if (draw_.chance(0.3)) lines_ += "Comments\n";
     }
     int line = 0;
@@ -537,7 +537,7 @@ class Writer {
       lines_ += key(fmt::format("{}: {}", german ? "Zeilen" : "Rows", result_.ny));
     }
     if (draw_.chance(0.1)) {
-      lines_ += key("Height: 1.6 \u00b5m");  // a range of heights beside sizes: ambiguous
+      lines_ += key("Height: 1.6 \u00b5m");  // a range of heights, or a size: ambiguous
       unclear("Height: 1.6");
     }
     if (std::string_view(mark_) == "-9999" && draw_.chance(0.7))
@@ -585,7 +585,7 @@ class Writer {
       result_.text = text;
   }
 
-  /// Code points of text in UTF-8, which are below U+0800.
+  /// Code points of a UTF-8 text; all must be below U+0800.
   static std::vector<unsigned> code_points(const std::string& text) {
     std::vector<unsigned> points;
     for (const char symbol : text) {
@@ -625,7 +625,7 @@ class Writer {
   std::vector<double> values_;
 };
 
-/// What is wrong with a surface that was read; empty where it is right.
+/// Describes what is wrong with a surface that was read; empty if it is correct.
 std::string mistake(const Case& drawn, const detail::ReadSurface& read) {
   const Surface& surface = read.surface;
   const auto off = [](double a, double b) { return std::abs(a - b) > 1e-6 * std::abs(b); };
@@ -643,22 +643,22 @@ std::string mistake(const Case& drawn, const detail::ReadSurface& read) {
   return "";
 }
 
-/// Whether a refusal names what was not understood: it quotes something of the file. What is missing
-/// in a clear file is an option.
+/// Whether a refusal quotes what was not understood in the file, or names the option that is
+/// missing for a clear file.
 bool names_token(const Case& drawn, const std::string& error) {
   if (!drawn.culprit.empty() && error.find(drawn.culprit) != error.npos) return true;
   if (drawn.culprit.empty() && error.find('`') != error.npos) return true;
   if (error.find("the empty line") != error.npos ||
       error.find("no number in the corner") != error.npos)
     return true;
-  if (error.find("as XYZ points") != error.npos) return true;
+  if (error.find("XYZ points") != error.npos) return true;
   if (error.find(" line ") != error.npos && error.find(" holds ") != error.npos) return true;
   for (auto begin = error.find('\''); begin != error.npos;) {
     const auto end = error.find('\'', begin + 1);
     if (end == error.npos) return false;
     std::string quoted = error.substr(begin + 1, end - begin - 1);
     if (quoted.ends_with("\u2026")) quoted.resize(quoted.size() - 3);
-    // A refusal writes tabs as it writes all that is no letter.
+    // A refusal escapes tabs like other control characters.
     for (auto tab = quoted.find("\\x09"); tab != quoted.npos; tab = quoted.find("\\x09"))
       quoted.replace(tab, 4, "\t");
     if (!quoted.empty() && drawn.said.find(quoted) != drawn.said.npos) return true;
@@ -670,7 +670,7 @@ bool names_token(const Case& drawn, const std::string& error) {
 }  // namespace
 
 TEST_CASE("Drawn files of instruments are read right or refused", "[text]") {
-  // SALEBRA_TEXT_FILES=100000 draws more; the night does.
+  // The nightly tests draw more: SALEBRA_TEXT_FILES=100000.
   const char* const more = std::getenv("SALEBRA_TEXT_FILES");
   const int files = more ? std::atoi(more) : 5000;
   int right = 0, refused = 0, wrong = 0, unnamed = 0, clear = 0, clear_right = 0;
@@ -720,6 +720,6 @@ TEST_CASE("Drawn files of instruments are read right or refused", "[text]") {
   }
   CHECK(wrong == 0);
   CHECK(unnamed == 0);
-  // A person would read these: at least 85 %.
+  // At least 85 % of the texts that a person could read must be read.
   CHECK(clear_right >= 0.85 * clear);
 }

@@ -62,7 +62,7 @@ TEST_CASE("A GSF file keeps float32 of the heights, whatever the length of its h
     std::getline(stream, header, '\0');
     lengths.insert(header.size() % 4);
   }
-  // The padding has 1 to 4 bytes: each of them was written and read.
+  // The padding has 1 to 4 bytes: every length was written and read.
   CHECK(lengths == std::set<std::size_t>{0, 1, 2, 3});
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("X3P masks points by bits, the least first", "[x3p]") {
   const Scratch scratch;
   const std::string xml =
       replaced(main_xml, "</DataLink>", "<ValidPointsLink>valid.bin</ValidPointsLink></DataLink>");
-  // Points 1 and 3 are not valid: (1, 0) and (0, 1).
+  // Points 1 and 3, (1, 0) and (0, 1), are not valid.
   const Field field = read_surface(archive(scratch, {{"main.xml", xml},
                                                      {"data.bin", heights},
                                                      {"valid.bin", std::string(1, '\x35')}}))
@@ -135,7 +135,7 @@ TEST_CASE("X3P masks points by bits, the least first", "[x3p]") {
   CHECK_THROWS_WITH(read_surface(archive(scratch, {{"main.xml", xml},
                                                    {"data.bin", heights},
                                                    {"valid.bin", std::string(2, '\xff')}})),
-                    Contains("valid.bin") && Contains("asks for 1"));
+                    Contains("valid.bin") && Contains("states 1"));
 }
 
 TEST_CASE("X3P that was packed as a folder is read, several folders are not", "[x3p]") {
@@ -173,7 +173,7 @@ TEST_CASE("An entry of X3P that the standard does not have is refused by name", 
        {"</Record1>", "<Unit>um</Unit></Record1>", "Record1/Unit"}}));
   CHECK_THROWS_WITH(read_surface(archive(scratch, {{"main.xml", replaced(main_xml, from, to)},
                                                    {"data.bin", heights}})),
-                    Contains(name + " in its main.xml, which is not used"));
+                    Contains(name + " in its main.xml, which salebra does not apply"));
 }
 
 TEST_CASE("X3P that is no height map, or damaged, says what it lacks", "[x3p]") {
@@ -188,13 +188,13 @@ TEST_CASE("X3P that is no height map, or damaged, says what it lacks", "[x3p]") 
     return Members{{"main.xml", replaced(main_xml, from, to)}, {"data.bin", heights}};
   };
   refused({{"readme.txt", "x"}}, "without main.xml");
-  refused({{"main.xml", "no XML <"}}, "no XML");
+  refused({{"main.xml", "not XML <"}}, "not XML");
   refused({{"main.xml", "<html/>"}}, "ISO 25178-72");
   refused({{"main.xml", main_xml}}, "lacks its member data.bin");
   refused(changed("SUR", "PRF"), "PRF");
   refused(changed("<CX><AxisType>I", "<CX><AxisType>A"), "CX/AxisType");
   refused(changed("<SizeX>3", "<SizeX>-3"), "SizeX = '-3'");
-  refused(changed("<SizeX>3", "<SizeX>4"), "asks for 16");
+  refused(changed("<SizeX>3", "<SizeX>4"), "states 16");
   refused(changed("<SizeX>3", "<SizeX>9000000000000000000"), "memory");
   refused(changed("<SizeZ>1", "<SizeZ>2"), "layers");
   refused(changed("<Increment>1e-6", "<Increment>0"), "CX/Increment");
@@ -216,7 +216,7 @@ TEST_CASE("A cut or changed X3P archive is refused, never read in part", "[x3p]"
   const std::string content{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t length = 4; length < content.size(); ++length)
     CHECK_THROWS_AS(read_surface(scratch.file("cut.x3p", content.substr(0, length))), InvalidInput);
-  // The heights come first in the archive: a changed byte of theirs breaks their CRC.
+  // The heights come first in the archive. Changing one of their bytes breaks their CRC.
   const auto at = content.find("data.bin") + 8 + 4;
   std::string changed = content;
   changed[at] = static_cast<char>(changed[at] ^ 0x10);
@@ -225,14 +225,14 @@ TEST_CASE("A cut or changed X3P archive is refused, never read in part", "[x3p]"
 
 TEST_CASE("A ZIP bomb in X3P is refused before it fills the memory", "[x3p]") {
   const Scratch scratch;
-  // 1 GiB of zeros, as main.xml and as heights, whose sizes the archive's directory states.
+  // 32 MiB of zeros as main.xml and as heights, with the true size in the archive's directory.
   const std::string zeros(std::size_t{1} << 25, '\0');
   CHECK_THROWS_WITH(read_surface(archive(scratch, {{"main.xml", zeros}}, ZIP_CM_DEFLATE)),
                     Contains("more than it can hold"));
   CHECK_THROWS_WITH(
       read_surface(archive(scratch, {{"main.xml", main_xml}, {"data.bin", zeros}}, ZIP_CM_DEFLATE)),
-      Contains("asks for 12"));
-  // A directory that lies: 4 GiB of heights from 12 bytes.
+      Contains("states 12"));
+  // The directory declares 2 GiB of heights for 12 bytes.
   const auto file =
       archive(scratch, {{"main.xml", replaced(replaced(main_xml, "<SizeX>3", "<SizeX>32768"),
                                               "<SizeY>2", "<SizeY>32768")},

@@ -167,7 +167,7 @@ TEST_CASE("Statistics of a surface over processes have the numbers of one proces
     const auto spread = run(test, ranks, "statistics rough.h5 --all --threads 1 --json -o " + file);
     INFO(spread.err);
     REQUIRE(spread.status == 0);
-    CHECK_THAT(spread.err, Contains("of several processes: no correlation"));
+    CHECK_THAT(spread.err, Contains("with several processes there are no correlation"));
     CHECK(std::ranges::count(spread.err, '\n') <= 2);
     nlohmann::json found = spread.json();
     for (const char* name : {"ranks", "threads", "warnings"}) found.erase(name);
@@ -222,7 +222,7 @@ TEST_CASE("A study over processes has the numbers of one process", "[mpi]") {
   CHECK(test.files() ==
         std::set<std::string>{"study.toml", "alone.h5", "alone.html", "spread.h5", "spread.html"});
   check_refused_once(run(test, 2, "study study.toml --hardness 5GPa " + quiet),
-                     "--hardness: 5000000000 needs each surface whole");
+                     "--hardness: 5000000000 needs each whole surface in one process");
 }
 
 TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
@@ -260,7 +260,7 @@ TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]")
 
 TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") {
   const ProgramTest test;
-  check_refused_once(run(test, 2, "fit none.h5"), "is computed by one process alone");
+  check_refused_once(run(test, 2, "fit none.h5"), "is computed by one process only");
   check_refused_once(run(test, 2, "generate " + surface + "-o none/a.h5 " + quiet),
                      "does not exist; create it first");
   check_refused_once(
@@ -324,9 +324,10 @@ TEST_CASE("Processes with other arguments, or other files of one name, are refus
   const ProgramTest test;
   const std::string make = "generate " + surface;
   for (const std::string second : {make + "-o a.h5 --threads 1", std::string("verify")})
-    check_refused_once(run_two(test, fmt::format("if [ $rank = 1 ]; then set -- {}; fi", second),
-                               make + "-o a.h5"),
-                       "process 2: has other arguments than process 1");
+    check_refused_once(
+        run_two(test, fmt::format("if [ $rank = 1 ]; then set -- {}; fi", second),
+                make + "-o a.h5"),
+        "process 2: has different arguments or a different version of the program than process 1");
 
   // One relative name in two folders, as on machines that do not share a disk.
   for (const char* folder : {"one", "two"})
@@ -338,7 +339,8 @@ TEST_CASE("Processes with other arguments, or other files of one name, are refus
   const std::string other = std::regex_replace(make, std::regex("--seed 7"), "--seed 8");
   REQUIRE(run_alone(test, other + quiet + "-o two/s.h5").status == 0);
   const std::string contact = "contact s.h5 --pressure 1MPa --contact-modulus 1GPa --json " + quiet;
-  check_refused_once(in_folders(contact), "s.h5: is another file for process 2 than for process 1");
+  check_refused_once(in_folders(contact),
+                     "s.h5: is a different file for process 2 than for process 1");
   // A copy is the same file.
   std::filesystem::copy_file(test.folder() / "one/s.h5", test.folder() / "two/s.h5",
                              std::filesystem::copy_options::overwrite_existing);
@@ -346,8 +348,9 @@ TEST_CASE("Processes with other arguments, or other files of one name, are refus
         numbers_of(run_alone(
             test, "contact one/s.h5 --pressure 1MPa --contact-modulus 1GPa --json " + quiet)));
   std::filesystem::remove(test.folder() / "two/s.h5");
-  check_refused_once(in_folders(contact), "s.h5: is another file for process 2");
+  check_refused_once(in_folders(contact), "s.h5: is a different file for process 2");
   test.write("one/study.toml", study);
   test.write("two/study.toml", study + "# of another seed\n");
-  check_refused_once(in_folders("study study.toml --json " + quiet), "study.toml: is another file");
+  check_refused_once(in_folders("study study.toml --json " + quiet),
+                     "study.toml: is a different file");
 }

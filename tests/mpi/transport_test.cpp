@@ -110,7 +110,7 @@ int main(int argc, char** argv) {
     check_group(ranks);
     check_own_messages();
     check_refusals(ranks);
-    expect(session.ranks_of_node().ranks() == ranks.size(), "node: not all are on this one");
+    expect(session.communicator_of_node().size() == ranks.size(), "node: not all are on this one");
     check_meeting(session, ranks);
     if (ranks.is_root()) std::cout << ranks.size() << " processes conform\n";
   } catch (const std::exception& error) {

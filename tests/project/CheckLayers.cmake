@@ -5,17 +5,16 @@ cmake_minimum_required(VERSION 3.25)
 set(layers base generators surface contact damping analysis io results study export report mpi apps salebra.hpp)
 
 # The rooms of contact/, and which others each of them sees: folders, and single files of that name.
-set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. hermite. quadrature.)
+set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. operating_point.)
 set(half_space_sees)                                  # the elastic bodies: their constants, kernels and loads
-set(law_sees hermite)                                 # what every model returns: ForceCurve and ContactLaw
-set(normal_sees half_space)                           # pressures by boundary elements
-set(asperity_sees half_space law quadrature)          # summits
-set(mdr_sees half_space law hermite quadrature)       # axisymmetric indenters
-set(theories_sees half_space law quadrature)          # closed theories
+set(law_sees)                                         # what every model returns: ForceCurve and ContactLaw
+set(normal_sees half_space operating_point)           # pressures by boundary elements
+set(asperity_sees half_space law)                     # summits
+set(mdr_sees half_space law)                          # axisymmetric indenters
+set(theories_sees half_space law)                     # closed theories
 set(tangential_sees half_space normal)                # tractions with and without slip
 set(sweep_sees half_space law normal tangential)      # a surface's force curve
-set(hermite_sees)
-set(quadrature_sees)
+set(operating_point_sees)                             # the control quantity and its value
 
 file(GLOB_RECURSE files RELATIVE ${ROOT}
   ${ROOT}/include/*.[hc]pp ${ROOT}/src/*.[hc]pp ${ROOT}/src/*.inl ${ROOT}/generators/*.[hc]pp ${ROOT}/apps/*.[hc]pp)
@@ -61,7 +60,7 @@ foreach(file IN LISTS files)
     if(line MATCHES "[<\"](salebra/[^>\"]+)[>\"]")
       set(target ${CMAKE_MATCH_1})
     elseif(line MATCHES "\"([^\"]+)\"")
-      # A private header: relative to the file, else to src/ ("contact/quadrature.hpp").
+      # A private header: relative to the file, else to src/ ("base/numerics/quadrature.hpp").
       set(target ${CMAKE_MATCH_1})
       if(NOT target MATCHES "^[a-z_]+/" OR EXISTS ${ROOT}/${folder}/${target})
         cmake_path(SET target NORMALIZE "${folder}/${target}")

@@ -48,11 +48,11 @@ set(no_files)
 foreach(package HDF5 GSL pugixml nlohmann_json tomlplusplus)
   list(APPEND no_files -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
-asks(optional 0 "found: 0, report needs .*libzip, pugixml" "find_package(salebra 1.0 QUIET)" ${no_files}
+asks(optional 0 "found: 0, report needs .*libzip, pugixml" "find_package(salebra 2.0 QUIET)" ${no_files}
   -D CMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
-asks(modules 1 "salebra_FOUND to FALSE .* report needs pkg-config, FFTW" "find_package(salebra 1.0 REQUIRED)"
+asks(modules 1 "salebra_FOUND to FALSE .* report needs pkg-config, FFTW" "find_package(salebra 2.0 REQUIRED)"
   -D CMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
-asks(unknown 1 "nothing needs to be one of the components base generators salebra" "find_package(salebra 1.0 REQUIRED COMPONENTS nothing)")
-asks(part 0 "found: 1" "find_package(salebra 1.0 REQUIRED COMPONENTS generators OPTIONAL_COMPONENTS io)" ${no_files})
+asks(unknown 1 "nothing needs to be one of the components base generators salebra" "find_package(salebra 2.0 REQUIRED COMPONENTS nothing)")
+asks(part 0 "found: 1" "find_package(salebra 2.0 REQUIRED COMPONENTS generators OPTIONAL_COMPONENTS io)" ${no_files})
 step(${CMAKE_COMMAND} --build ${SCRATCH}/part)
 step(${SCRATCH}/part/run_surface)

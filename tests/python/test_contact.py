@@ -175,7 +175,7 @@ def test_what_flowed_carries_the_first_load_by_elasticity_alone() -> None:
 
 def test_a_modulus_without_its_unit_is_doubted(surface: salebra.Surface) -> None:
     for call in (lambda: salebra.press(surface, 115, pressure=1e6), lambda: salebra.sweep_pressures(surface, salebra.Material(115), [1e6])):
-        with pytest.warns(UserWarning, match=r"a nominal pressure of 1 MPa is 8696 times E\* = 115 Pa: .*; check the units"):
+        with pytest.warns(UserWarning, match=r"a nominal pressure of 1 MPa is 8696 times E\* = 115 Pa, .*; check the units"):
             call()
 
 

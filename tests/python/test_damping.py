@@ -158,7 +158,7 @@ def test_a_held_indentation_that_raises_the_mean_force_is_warned_of() -> None:
         lambda: salebra.steady_sliding(law, wide, friction_coefficient=0.3, force=10),
         lambda: salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=1e-9, normal_amplitude=2e-7, force=10),
     ):
-        with pytest.warns(UserWarning, match="22.8 N, not 10 N, 2.28 times"):
+        with pytest.warns(UserWarning, match="22.8 N from 10 N, 2.28 times"):
             asked()
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -268,9 +268,9 @@ def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Pat
     assert file.exists()
     with pytest.raises(salebra.InvalidInput, match="cycle.h5: exists; resume from it"):
         simulate(resume=False)
-    with pytest.raises(salebra.InvalidInput, match="cycle.h5: steps was 16 in the checkpoint and is 24 now"):
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: steps is 16 in the checkpoint but 24 now"):
         simulate(steps=24)
-    with pytest.raises(salebra.InvalidInput, match="cycle.h5: levels was function"):
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: contact_sets is function"):
         simulate(elements)
     told: list[tuple[str, int]] = []
     resumed = simulate(progress=lambda report: told.append((report.stage, report.step)))
@@ -376,10 +376,10 @@ def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None
 def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
     ratio, load, decay_length, friction = 0.8, 2.0, 1e-7, 0.3
     law = salebra.ExponentialLaw(load, decay_length, ratio)
-    levels = salebra.LawSprings(law, -5e-8, 5e-8, friction_coefficient=friction, levels=128)
-    element = salebra.ContactElement(levels)
+    springs = salebra.LawSprings(law, -5e-8, 5e-8, friction_coefficient=friction, springs=128)
+    element = salebra.ContactElement(springs)
     element.start(0.0)
-    # First loading under constant normal force: T = μF[1 − exp(−gx/(μl))], g = G*/E*. Levels are a hundredth of it wide.
+    # First loading under constant normal force: T = μF[1 − exp(−gx/(μl))], g = G*/E*. Springs are a hundredth of it wide.
     x = 3e-8
     expected = friction * load * -math.expm1(-ratio * x / (friction * decay_length))
     tried = element.forces(0.0, 0.6 * x, 0.8 * x)
@@ -391,12 +391,12 @@ def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
     taken = element.move_to(0.0, 0.6 * x, 0.8 * x)
     assert taken.tangential_force == tried.tangential_force
     assert kept.move_to(0.0, 0.6 * x, 0.8 * x).tangential_force == taken.tangential_force
-    assert len(before) == 3 + 2 * len(levels) and element.state[1] == 0.6 * x
+    assert len(before) == 3 + 2 * len(springs) and element.state[1] == 0.6 * x
     element.restore(before)
     assert element.move_to(0.0, 0.6 * x, 0.8 * x).tangential_force == taken.tangential_force
     assert element.move_to(-1e-5, 0.0).normal_force == 0
-    with pytest.raises(salebra.InvalidInput, match="intervals"):
-        salebra.LawSprings(law, 0.0, 1e-8, levels=1)
+    with pytest.raises(salebra.InvalidInput, match="springs"):
+        salebra.LawSprings(law, 0.0, 1e-8, springs=1)
 
 
 def test_a_sphere_by_force_cell_by_cell_is_mindlins() -> None:

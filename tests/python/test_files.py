@@ -55,7 +55,7 @@ def test_spikes_are_undefined_and_what_is_undefined_is_cropped_or_filled(tmp_pat
     assert part.nx * part.ny >= 24 * 64
 
     salebra.write_surface(tmp_path / "scan.h5", dirty)
-    with pytest.warns(UserWarning, match="1 point stands alone"):
+    with pytest.warns(UserWarning, match="1 point is isolated"):
         salebra.read_surface(tmp_path / "scan.h5")
     with pytest.warns(UserWarning, match="1 point far from its neighbours"):
         read = salebra.read_surface(tmp_path / "scan.h5", despike=6, crop=(0, 0, "0.4mm", "1mm"), fill=True)

@@ -119,3 +119,42 @@ def test_a_law_and_a_single_case_have_the_same_meaning(program: Callable[..., An
     with pytest.warns(UserWarning, match="excursion"):
         unknown = salebra.relaxation_damping(law, motion, force=1.0, parameters=salebra.ContactParameters(friction_coefficient=0.3))
     assert np.isnan(unknown.damping_constant) and unknown.damping_constant_without_slip == stuck.damping_constant
+
+
+def test_an_error_of_several_surfaces_is_the_same_everywhere(program: Callable[..., Any], tmp_path: Path) -> None:
+    # Noise of cells is less in a mean over surfaces, so the stated error is not the mean of the errors of the surfaces.
+    file = tmp_path / "study.toml"
+    file.write_text(
+        """
+[surface]
+points = 16
+size_x = "1um"
+rms_height = "5nm"
+hurst = 0.8
+rolloff = "0.5um"
+short_cutoff = "0.25um"
+seeds = [1, 2]
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+pressures = ["40MPa", "80MPa", "160MPa"]
+[damping]
+mode = "drag"
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+"""
+    )
+    printed = program("study", file, "-o", tmp_path / "study.h5")["damping"]
+    compared = program("compare", file, "--models", "persson")["models"]["bem"]
+    reader = salebra.ResultReader(tmp_path / "study.h5")
+    for name in ("damping_constant_error", "damping_constant_without_slip_error", "work_per_cycle_error"):
+        stored = np.array(reader[f"damping/ensemble_{name}_mean"][0])
+        assert np.isfinite(stored).any()
+        for numbers in (printed[name]["mean"], compared["damping"][name]["mean"]):
+            assert [np.nan if one is None else one for one in numbers] == pytest.approx(stored, rel=1e-6, nan_ok=True), name
+    # A model over itself is 1, with and without slip.
+    for name in ("work_per_cycle", "work_per_cycle_without_slip"):
+        ratios = [one for one in compared["over_bem"][name]["mean"] if one is not None]
+        assert ratios == pytest.approx([1.0] * len(ratios)) and ratios

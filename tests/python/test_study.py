@@ -33,6 +33,25 @@ def test_a_study_from_text_writes_what_it_computed(result: salebra.StudyResult, 
     assert (tmp_path / "study.h5").exists()
 
 
+def test_results_over_the_pressure_are_curves(result: salebra.StudyResult) -> None:
+    gap = result.curve("mean_gap")
+    assert len(gap) == 10 and np.array_equal(gap.pressure, result.pressures)
+    assert [one.mean for one in gap] == list(gap.mean) and gap[-1].low == gap.low[9]
+    with pytest.raises(AttributeError, match="'MeanCurve' has no attribute 'force'"):
+        gap.force
+    bem = result.realisations[0]
+    for curve in (gap, result.damping(), result.solution().damping_constant, bem.bem.damping, bem.spots):
+        data = curve.to_xarray()
+        assert data.pressure.values == pytest.approx(result.pressures, rel=1e-12) and data.pressure.attrs["units"] == "Pa"
+        assert set(data.data_vars) <= set(curve.to_dataframe().columns)
+        curve.plot()
+    assert gap.to_xarray()["mean"].attrs["units"] == gap.to_dataframe().attrs["units"]["low"] == "m"
+    assert result.convergence().coordinate == "surfaces" and result.convergence().to_xarray()["mean"].attrs["units"] == "1"
+    assert list(bem.bem.damping.damping_constant) == pytest.approx([one.damping_constant for one in bem.bem.damping], nan_ok=True)
+    assert list(bem.spots.spot_count) == [one.spot_count for one in bem.spots]
+    assert len(bem.flow) == 0 and not bem.flow
+
+
 def test_the_answer_of_a_study_is_that_of_the_program(program: Callable[..., Any], tmp_path: Path) -> None:
     text = STUDY.replace("[contact]", "friction_coefficient = 0.3\n[contact]", 1) + 'excursion = "1mm"\n'
     (tmp_path / "slips.toml").write_text(text)

@@ -198,14 +198,14 @@ def test_a_labelled_array_has_its_axes_sizes_and_units() -> None:
 
 
 def test_heights_whose_unit_was_forgotten_are_doubted_once(surface: salebra.Surface, tmp_path: Path) -> None:
-    with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1: heights in nm\? rms slope would be 0\.0") as told:
+    with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1; are the heights in nm\? Then the rms slope would be 0\.0") as told:
         wrong = salebra.Surface(surface.heights * 1e9, surface.size_x, surface.size_y)
         salebra.press(wrong, 1e9, pressure=1e6)
     assert len(told) == 1
     assert told[0].filename == __file__
     np.savetxt(tmp_path / "scan.txt", surface.heights.T * 1e6)
     sizes = {"size_x": surface.size_x, "size_y": surface.size_y}
-    with pytest.warns(UserWarning, match=r"scan.txt: rms slope \S+ is above 1: heights in µm\?") as told:
+    with pytest.warns(UserWarning, match=r"scan.txt: rms slope \S+ is above 1; are the heights in µm\?") as told:
         salebra.read_surface(tmp_path / "scan.txt", **sizes)
     assert len(told) == 1
     assert told[0].filename == __file__

@@ -115,9 +115,9 @@ def test_a_line_is_a_scan_and_bad_scans_are_refused() -> None:
     assert salebra.scan_spectrum(line, "stylus", tip_radius="2um").profile
     with pytest.raises(salebra.InvalidInput, match="resolution: 0 must be a finite number > 0"):
         salebra.scan_spectrum(salebra.filtered_noise(GRID, LAW, 1), "optical")
-    with pytest.raises(salebra.InvalidInput, match="scans: are none"):
+    with pytest.raises(salebra.InvalidInput, match="scans: none given"):
         salebra.SurfaceTwin([]).fit()
-    with pytest.raises(salebra.InvalidInput, match="draws: are none"):
+    with pytest.raises(salebra.InvalidInput, match="draws: are missing"):
         salebra.SurfaceTwin([]).draw(1)
 
 

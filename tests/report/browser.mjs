@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// node browser.mjs CHROMIUM FOLDER PROGRAM: opens the pages in FOLDER as a reader would. Ends with 1 and the list of what is wrong.
+// node browser.mjs CHROMIUM FOLDER PROGRAM: opens and uses the pages in FOLDER as a reader would. Prints a list of faults and exits with 1 if there are any.
 import {execFileSync} from "node:child_process";
 import {existsSync, readFileSync, statSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -15,7 +15,7 @@ process.on("exit", () => { for (const fault of faults) console.error(fault); });
 const browser = await chromium.launch({executablePath, headless: true, timeout: 120000,
   args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage"]});
 
-/** A page that was drawn, and nothing went wrong while it was. */
+/** Opens a page. Console messages, exceptions and network requests count as faults. */
 async function open(name, options) {
   const context = await browser.newContext({acceptDownloads: true, ...options});
   const page = await context.newPage();
@@ -27,12 +27,12 @@ async function open(name, options) {
   return page;
 }
 
-/** For who changes the page: drawing it whole takes a second. */
+/** Saves a picture of the whole page if SALEBRA_SCREENSHOTS is set, because it takes a second. */
 async function picture(page, name) {
   if (process.env.SALEBRA_SCREENSHOTS) await page.screenshot({path: join(folder, name), fullPage: true});
 }
 
-/** Each figure has something to see, a name, a text in its place, and a table of finite numbers. */
+/** Each figure has visible curves, a name, a text for screen readers, and a table of finite numbers. */
 async function checkFigures(page, name, expected) {
   const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
     const plot = figure.querySelector(".plot");
@@ -60,8 +60,8 @@ async function checkFigures(page, name, expected) {
 }
 
 /**
- * Error bars are to the values that they stand on as the numbers of the same figure are, whatever the unit of the axis: either side of a
- * bar is a column's error, or the distance from its mean to its low and high. Returns how many of the bars stand on an axis with a prefix.
+ * Error bars agree with the numbers of the same figure, whatever the unit of the axis: each side of a bar, relative to its value, is the
+ * error of a column or the distance from its mean to its low or high. Returns the number of bars on axes with a prefix.
  */
 async function checkBars(page, name) {
   const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
@@ -79,7 +79,7 @@ async function checkBars(page, name) {
     const [heads, ...rows] = parsed(text);
     const column = (head) => rows.map((row) => (row[heads.indexOf(head)] ? Number(row[heads.indexOf(head)]) : NaN));
     for (const {name: trace, values, above, below} of traces) {
-      // The column that the values are, but for the unit; numbers of a page have seven digits.
+      // The column with the same values, up to the unit; numbers of a page have seven digits.
       const near = (a, b) => Math.abs(a - b) <= 1e-6 * Math.abs(b);
       const there = values.map((_, i) => i).filter((i) => values[i] !== null);
       const same = heads.filter((head) => there.length && there.every((i) => near(values[i] / column(head)[i], values[there[0]] / column(head)[there[0]])));
@@ -91,7 +91,7 @@ async function checkBars(page, name) {
       const bars = there.flatMap((i) => [[above[i], error[i] ?? high[i] - means[i]], [below[i], error[i] ?? means[i] - low[i]]]
         .map(([bar, width]) => [bar / values[i], width / means[i]])).filter(([drawn]) => drawn > 0);
       check(bars.length > 0, `${name}: ${id}, ${trace}: no bar is longer than 0`);
-      // The difference of two numbers of seven digits has fewer.
+      // The difference of two numbers of seven digits has fewer correct digits.
       const wrong = bars.find(([drawn, told]) => !(Math.abs(drawn - told) <= 1e-6));
       check(!wrong, `${name}: ${id}, ${trace}: a bar is ${wrong?.[0]} of its value, the numbers say ${wrong?.[1]}`);
       if (factor !== 1) prefixed += bars.length;
@@ -122,7 +122,7 @@ async function checkStructure(page, name) {
   for (const fault of found) faults.push(`${name}: ${fault}`);
 }
 
-/** Contrast of text and of curves with what lies under them, by WCAG 2. */
+/** Contrast of text and of curves with their background, by WCAG 2. */
 async function checkContrast(page, name) {
   const ratios = await page.evaluate(() => {
     const value = (css) => getComputedStyle(document.documentElement).getPropertyValue(`--${css}`).trim();
@@ -134,7 +134,7 @@ async function checkContrast(page, name) {
   for (const [css, ratio, least] of ratios) check(ratio >= least, `${name}: ${css} has a contrast of ${ratio.toFixed(2)}, less than ${least}`);
 }
 
-/** RFC 4180 without quotes within cells, which is what the figures write. */
+/** Parses CSV text by RFC 4180 without quotes within cells, as the figures write it. */
 function parsed(text) {
   const rows = text.trimEnd().split("\r\n").map((line) => (line.match(/("([^"]|"")*"|[^,]*)(,|$)/g) ?? []).slice(0, line.split(",").length));
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
@@ -147,7 +147,7 @@ const full = await open("full.html", {viewport: {width: 1280, height: 900}, colo
 await checkFigures(full, "full.html", everyFigure);
 await checkStructure(full, "full.html");
 await checkContrast(full, "full.html");
-// One load: the damping constant on top, the profile, the contact map, the regimes and, as the page opens, the maps; another is chosen once.
+// The damping constant on top, the profile, the contact map and the regimes show one load, and so do the maps when the page opens. Choosing another load changes all but the maps.
 const loadsShown = () => full.evaluate(() => new Promise(requestAnimationFrame)).then(() => full.evaluate(() => [/p = (.*Pa)/.exec(document.querySelector("#conclusion").innerText)?.[1], /^(.*Pa),/.exec(document.querySelector("#load").selectedOptions[0].text)?.[1], /^(.*Pa),/.exec(document.querySelector("#explore-load").selectedOptions[0].text)?.[1],
   /touch at (.*Pa)/.exec(document.querySelector("#profile figcaption").textContent)?.[1], /^(.*Pa):/.exec(document.querySelector("#contact-map output").textContent)?.[1], /Regimes at (.*Pa) for/.exec(document.querySelector("#regime-map figcaption").textContent)?.[1],
   ...["pressure-map", "gap-map"].map((id) => /nominal pressure ([^,;]*\wPa)/.exec(document.querySelector(`#${id} figcaption`).textContent)?.[1])]));
@@ -159,20 +159,20 @@ check(new Set(chosen.slice(0, 6)).size === 1 && chosen[0] !== loads[0] && chosen
 await full.selectOption("#load", await full.evaluate(() => String(data.points[0].picture.mapped_load)));
 const captions = await full.locator("figcaption b").allTextContents();
 check(captions.length === everyFigure.length && captions.every((text, i) => text === `Figure ${i + 1}. `), `full.html: numbers its figures ${captions}`);
-// An error has no sign; what was not judged, and what has no number, is named.
+// An error has no sign. Assumptions that were not checked and missing numbers are named.
 const top = await full.locator("#conclusion").innerText();
 check(/numerical error \d/.test(top) && !/error [+−]/.test(await full.evaluate(() => document.body.innerText + document.getElementById("damping-curve-plot").data.flatMap((trace) => trace.text ?? []).join())), `full.html: has an error with a sign: ${top.match(/numerical error.*/)}`);
 check(/Validity\s+(valid|valid with care|not valid|not checked)/.test(top) && /slip where it opens and closes: M above [\d.]+\s+friction_coefficient not given/.test(top), `full.html: does not say what was not checked: ${top}`);
 const unstated = await full.evaluate(() => { const point = structuredClone(data.points[0]), computed = point.damping.curve.damping_constant.bem; computed.mean[0] = computed.mean[3] = null; return [warningsOf(data.points[0]), warningsOf(point)].map((list) => list.find((line) => /error is larger/.test(line))); });
 check(unstated[0] === undefined && /^No damping constant at 2 of 12 pressures/.test(unstated[1]), `full.html: says of numbers that are not stated: ${unstated}`);
-// Points in contact are blank in the map of the gap, as the others are in that of the pressure.
+// Points in contact are blank in the map of the gap, all others in the map of the pressure.
 const blank = await full.evaluate(() => { const of = (id) => document.getElementById(`${id}-plot`).data[0].z.flat(), gap = of("gap-map"); return of("pressure-map").map((p, i) => (p === null) === (gap[i] === null)).filter(Boolean).length / gap.length; });
 check(blank < 0.01, `full.html: ${100 * blank} % of the points are blank, or drawn, in the maps of pressure and gap alike`);
 const prefixed = await checkBars(full, "full.html");
 check(prefixed > 0, "full.html: no error bar stands on an axis with a prefix, for which the bars are checked");
 await picture(full, "full-1280.png");
 
-// The switches change the axes and only them.
+// Each switch changes its axis.
 for (const box of await full.locator("figure .switch input").all()) {
   const [figure, axis, before] = await box.evaluate((input) => [input.closest("figure").id, input.dataset.axis, input.checked]);
   await box.click();
@@ -180,20 +180,20 @@ for (const box of await full.locator("figure .switch input").all()) {
   check(after === (before ? "linear" : "log"), `full.html: the switch of ${figure} ${axis} leaves it ${after}`);
   await box.click();
 }
-// A curve hides and comes back.
+// A click on the legend hides a curve, a second click shows it.
 const chip = full.locator("#area-load .legend button").first();
 await chip.click();
 check(await full.evaluate(() => document.getElementById("area-load-plot").data.some((trace) => trace.visible === false)), "full.html: a click on the legend hides nothing");
 check((await chip.getAttribute("aria-pressed")) === "false", "full.html: a hidden curve's button still counts as pressed");
 await chip.click();
-// More load, more contact.
+// At a higher load more points touch.
 const touching = () => full.evaluate(() => document.getElementById("contact-map-plot").data[0].z.flat().filter((v) => v !== null).length);
 const slider = full.locator("#contact-load");
 await slider.focus();
 const before = await touching();
 await full.keyboard.press("End");
 await full.waitForFunction((least) => document.getElementById("contact-map-plot").data[0].z.flat().filter((v) => v !== null).length > least, before);
-// Another model, another quantity.
+// The damping figure can show another model and another quantity.
 await full.selectOption("#damping-model", "gw_moments");
 await full.selectOption("#damping-measure", "work_per_cycle");
 check((await full.evaluate(() => document.getElementById("damping-curve-plot").layout.yaxis.title.text)).includes("work per cycle"), "full.html: the damping figure does not change to work per cycle");
@@ -214,9 +214,9 @@ for (let attempt = 0; attempt < 20 && (await hovered.count()) === 0; ++attempt) 
 check((await hovered.count()) > 0, "full.html: hovering over a point of the force curve shows nothing");
 const hover = (await hovered.count()) ? await full.locator("#force-gap .hoverlayer").textContent() : "";
 check(/F = [\d.]+\s[µmn]?N/.test(hover) && /ū = [\d.]+\s[nµ]m/.test(hover), `full.html: hovering says ${hover}`);
-// Every figure's CSV is a table of numbers.
+// The CSV file of every figure is a table of numbers.
 for (const [i, id] of everyFigure.entries()) {
-  // Chromium grants a page ten downloads in ten seconds: the first are real, of the others the text is caught.
+  // Chromium allows a page ten downloads in ten seconds: only the first five are real, for the others the test intercepts the text.
   let name, text;
   if (i < 5) {
     const [download] = await Promise.all([full.waitForEvent("download"), full.locator(`#${id} .csv`).click()]);
@@ -232,13 +232,13 @@ for (const [i, id] of everyFigure.entries()) {
   check(rows[0].every((head) => /^[a-z0-9_A-Z]+$/.test(head)), `full.html: the CSV of ${id} has the header ${rows[0]}`);
   check(rows.slice(1).every((row) => row.every((cell) => cell === "" || Number.isFinite(Number(cell)))), `full.html: the CSV of ${id} has cells that are no numbers`);
 }
-// How far Eq. (16) is off, the ratio of two columns of the figure above it.
+// The deviation of Eq. (16) is the ratio of two columns of the figure above it.
 const columns = await full.evaluate(() => ["damping-curve", "damping-deviation"].map((id) => { document.querySelector(`#${id} .csv`).click(); return window.caught[1]; }));
 const [[curveHeads, ...curve], [offHeads, ...off]] = columns.map(parsed);
 const columnOf = (heads, rows, head) => rows.map((row) => Number(row[heads.indexOf(head)]));
 const [byLaw, computed, told] = [columnOf(curveHeads, curve, "law_damping_constant_Ns_per_m"), columnOf(curveHeads, curve, "curve_damping_constant_Ns_per_m"), columnOf(offHeads, off, "ratio")];
 check(told.length === 12 && told.every((v, i) => !(Math.abs(v - byLaw[i] / computed[i]) > 1e-6 * (1 + Math.abs(v)))), `full.html: is off by ${told}, by its columns ${byLaw.map((v, i) => v / computed[i])}`);
-// A picture for a paper, marks in the legend as on the curves, and symbols that lead to their meaning.
+// The SVG picture, different markers in the legend, and links from symbols to their meaning.
 await full.evaluate(() => { window.caught = null; });
 await full.locator("#stiffness-load button.svg").click();
 await full.waitForFunction(() => window.caught);
@@ -251,11 +251,11 @@ check(symbols === 0 && (await full.locator("a.symbol").count()) > 10, `full.html
 for (const page of new Set(await full.locator("#symbols td code").allInnerTexts())) check(existsSync(join(dirname(process.argv[1]), "../..", page)), `full.html: ${page}, which defines a symbol, is not there`);
 check(/Run time of the command/.test(await full.locator("#settings").innerText()), "full.html: does not say how long its study took");
 check(/@article/.test(await full.locator("#symbols").textContent()), "full.html: has no citation");
-// Residuals: those within the window take more than a third of their panel.
+// The residuals within the window of the fit take enough of their panel to be readable.
 const used = await full.evaluate(() => { const {data, layout} = document.getElementById("force-gap-plot"); const trace = data.find((t) => t.yaxis === "y2"), [x0, x1] = [layout.shapes[0].x0, layout.shapes[0].x1].sort((a, b) => a - b);
   const inside = trace.y.filter((y, i) => y !== null && trace.x[i] >= x0 && trace.x[i] <= x1); return {share: (Math.max(...inside) - Math.min(...inside)) / (layout.yaxis2.range[1] - layout.yaxis2.range[0]), panel: layout.yaxis2.domain[1]}; });
 check(used.share > 0.12 && used.panel >= 0.3, `full.html: residuals take ${used.share} of their panel, which is ${used.panel} of the figure`);
-// Without JavaScript: the numbers and the verdict.
+// Without JavaScript, the page shows the numbers and the verdict.
 const bare = await (await browser.newContext({javaScriptEnabled: false})).newPage();
 await bare.goto(`file://${join(folder, "full.html")}`, {waitUntil: "load"});
 const said = await bare.locator("main").innerText();
@@ -263,20 +263,20 @@ check(/Decay length l of F ∝ exp\(−ū\/l\): [\d.]+ [nµ]m/.test(said) && /Th
 check((await bare.locator("main table tbody tr").count()) === 12, "full.html without JavaScript: has no table of damping constants");
 const drawnVerdict = await full.locator("#conclusion .verdict strong").first().textContent();
 check(said.includes(drawnVerdict.trim()), `full.html: the verdicts with and without JavaScript differ: ${drawnVerdict}`);
-// With friction, the constant of the motion described.
+// With friction, the table includes the damping constant of the motion as described.
 await bare.goto(`file://${join(folder, "grid.html")}`, {waitUntil: "load"});
 const bareHeads = await bare.locator("main table").first().locator("th").allTextContents(), bareCells = await bare.locator("main table").first().locator("tbody td:nth-last-child(2)").allTextContents();
 check(bareHeads.join() === "pressure,force,closed form, fitted l,without slip,with slip,regime" && bareCells.filter((text) => /N s\/m$/.test(text)).length > 4, `grid.html without JavaScript: has the columns ${bareHeads}, the last ${bareCells}`);
 await bare.context().close();
 
-/** Of each sheet of a PDF by Chromium the heights of its lines of text, as parts of the sheet from its top. */
+/** For each sheet of a PDF by Chromium, the vertical positions of its text lines as fractions of the sheet from its top. */
 function linesOfSheets(file) {
   const bytes = readFileSync(file), text = bytes.toString("latin1");
   const objects = new Map([...text.matchAll(/(?:^|\n)(\d+) 0 obj\n/g)].map((found) => [found[1], found.index + found[0].length]));
   return [...text.matchAll(/\/Type \/Page\b[^]*?\/MediaBox \[0 0 \S+ (\S+)\][^]*?\/Contents (\d+) 0 R/g)].map(([, height, contents]) => {
     const begin = text.indexOf("stream\n", objects.get(contents)) + "stream\n".length;
     const lines = [], saved = [];
-    let [scale, shift] = [1, 0];  // vertical part of the transformation to points from the sheet's bottom
+    let [scale, shift] = [1, 0];  // vertical part of the transformation to points above the bottom of the sheet
     for (const line of inflateSync(bytes.subarray(begin, text.indexOf("endstream", begin))).toString("latin1").split("\n")) {
       const words = line.split(" "), operator = words.at(-1);
       if (operator === "q") saved.push([scale, shift]);
@@ -288,14 +288,14 @@ function linesOfSheets(file) {
   });
 }
 
-// On paper: light, and no wider than the sheet.
+// The printed page is light and fits the sheet.
 await full.setViewportSize({width: 794, height: 900});
 await full.emulateMedia({colorScheme: "dark"});
 await checkContrast(full, "full.html, dark");
 await picture(full, "full-794-dark.png");
 await full.pdf({path: join(folder, "full.pdf"), format: "A4"});
 check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next to nothing");
-// Seventeen figures and six tables take eight sheets, and took thirteen when each figure had the whole width.
+// Seventeen figures and six tables take eight sheets, and thirteen if each figure has the whole width.
 const sheets = linesOfSheets(join(folder, "full.pdf"));
 check(sheets.length > 4 && sheets.length <= 9, `full.html: prints on ${sheets.length} sheets`);
 for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.55, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
@@ -304,14 +304,14 @@ check((await full.evaluate(() => getComputedStyle(document.body).backgroundColor
 await picture(full, "full-print.png");
 check(!(await full.locator("nav").isVisible()), "full.html: prints its links within the page");
 
-// A phone: nothing wider than it.
+// On a phone, nothing is wider than the screen.
 for (const name of ["full.html", "study.html"]) {
   const phone = await open(name, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true, deviceScaleFactor: 1});
   await checkFigures(phone, `${name}, 390`, everyFigure);
   const width = await phone.evaluate(() => document.documentElement.scrollWidth);
   check(width <= 390, `${name}: is ${width} pixels wide on a phone of 390`);
   await picture(phone, `${name.replace(".html", "")}-390.png`);
-  // Of several surfaces, by their mean curve: the shares that the study has in its file.
+  // For several surfaces, the page computes from their mean curve the same shares by slip as the study.
   if (name === "study.html") {
     const shares = await phone.evaluate(() => { const point = data.points[0]; return point.solution.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
     check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
@@ -319,7 +319,7 @@ for (const name of ["full.html", "study.html"]) {
   await phone.context().close();
 }
 
-/** Sets the numbers of the explorer as a reader would. Returns what it shows, and the answer behind it. */
+/** Enters numbers in the explorer as a reader would. Returns the numbers shown, the reason for missing ones, and data of the study. */
 async function explored(page, load, numbers) {
   await page.selectOption("#explore-load", String(load));
   return page.evaluate(async (values) => {
@@ -334,15 +334,15 @@ async function explored(page, load, numbers) {
   }, numbers);
 }
 
-/** A number with prefix and unit, as the page writes it; NaN for n/a. */
+/** Parses a number with prefix and unit as the page writes it; NaN for n/a. */
 function readBack(text) {
   const [, digits, , power, prefix] = /^([\d.]+)(\s×\s10(\S+))?\s?([afpnµmkMG]?)(N s\/m|J|%)$/.exec(text) ?? [];
   const exponent = power ? Number([...power].map((c) => (c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c))).join("")) : 0;
   return digits ? Number(digits) * 10 ** exponent * {a: 1e-18, f: 1e-15, p: 1e-12, n: 1e-9, "µ": 1e-6, m: 1e-3, "": 1, k: 1e3, M: 1e6, G: 1e9}[prefix] : NaN;
 }
 
-// Motions that are set in the page lose what the program says of the same curve: to 1 %, which is the three digits shown and the steps of a cycle.
-// From no slip to sliding, and from slow to not slow; units are those of the controls.
+// For motions entered in the page, the losses agree with those of the program for the same curve to 1 %, the effect of three digits and of the steps of a cycle.
+// The motions range from no slip to sliding; units are those of the controls.
 const motions = {
   slow: [[{normal_amplitude: 100, frequency: 20, drag_velocity: 1e-3, excursion: 2, friction_coefficient: 0.3}, "pm kHz mm/s nm"], [{normal_amplitude: 300, frequency: 50, drag_velocity: 1e-2, excursion: 5, friction_coefficient: 0.1}, "pm kHz mm/s nm"],
     [{normal_amplitude: 50, frequency: 5, drag_velocity: 1e-3, excursion: 100, friction_coefficient: 1}, "pm kHz mm/s nm"], [{normal_amplitude: 800, frequency: 20, drag_velocity: 1e-4, excursion: 0.005, friction_coefficient: 1}, "pm kHz mm/s nm"]],
@@ -362,7 +362,7 @@ for (const [name, sets] of Object.entries(motions)) {
       for (const [label, share] of [["by slip", asked.slip_share[i]], ["by relaxation", asked.relaxation_share[i]]])
         check(Math.abs(readBack(shown[label]) / 100 - share) < 0.01, `${where}: ${shown[label]} ${label}, by the program ${share}`);
       check(shown.regime === asked.regime[i], `${where}: the regime is ${shown.regime}, by the program ${asked.regime[i]}`);
-      // With a coefficient of friction slip is followed, and no condition.
+      // With a coefficient of friction slip is computed, so it is no assumption.
       const verdicts = Object.entries(asked.assumptions).filter(([assumption, one]) => !/^slip_|^amplitude/.test(assumption) && !(assumption === "coupling" && one.verdict[i] === "unknown")).map(([, one]) => one.verdict[i]);
       if (asked.regime[i] === "sliding") verdicts.push("broken");  // no damper
       const validity = [["broken", "not valid"], ["doubtful", "valid with care"], ["unknown", "not checked"], ["holds", "valid"]].find(([verdict]) => verdicts.includes(verdict))[1];
@@ -375,8 +375,8 @@ for (const [name, sets] of Object.entries(motions)) {
   if (name === "slow") {
     await checkFigures(page, "slow.html", everyFigure.filter((id) => !["convergence"].includes(id)));
     await picture(page, "slow-1280.png");
-    // No number where the program has none, and the reason in its place.
-    for (const [change, reason] of [[{excursion: ""}, /excursion decides/], [{excursion: 0.001, drag_velocity: 0.01}, /no slow motion/], [{excursion: 2, normal_amplitude: 1e5}, /leaves the curve’s range/], [{normal_amplitude: -1}, /must be > 0/]]) {
+    // If the program gives no number, the page gives none and states the reason.
+    for (const [change, reason] of [[{excursion: ""}, /depends on excursion/], [{excursion: 0.001, drag_velocity: 0.01}, /motion is not slow/], [{excursion: 2, normal_amplitude: 1e5}, /leaves the curve’s range/], [{normal_amplitude: -1}, /must be > 0/]]) {
       const {shown, why} = await explored(page, 7, change);
       check(shown["damping constant γ"] === "n/a" && reason.test(why), `slow.html, ${JSON.stringify(change)}: shows ${shown["damping constant γ"]}, because ${why}`);
     }
@@ -386,7 +386,7 @@ for (const [name, sets] of Object.entries(motions)) {
   await page.context().close();
 }
 check(seen.settings >= 20 && seen.regimes.size === 3 && seen.validities.size >= 2, `explorer: ${seen.settings} settings, ${[...seen.regimes]}, ${[...seen.validities]}`);
-// Contacts within the oscillation judge the curve: of one that they do not confirm there is no number.
+// Contacts solved within the oscillation check the curve. If they contradict it, the page gives no number.
 const judged = await full.evaluate(() => { const point = data.points[0], {mean, error} = point.solution.damping_constant, of = (p, k) => explore(p, k, studiedMotion(p));
   const other = structuredClone(point);
   Object.assign(other.solution.damping_constant, {mean: mean.map((value) => value && value / 3), error: error.map((value) => value && value / 3)});
@@ -396,7 +396,7 @@ for (const {k, mean, error, mine} of judged)
   check(curveOf(mine) === "broken" ? Number.isNaN(mine.damping_constant) : Math.abs(mine.damping_constant / mean - 1) <= error / mean + (curveOf(mine) === "holds" ? 0.05 : 0.2), `full.html, load ${k}: ${mine.damping_constant} by the curve, ${mean} ± ${error} by contacts, which is ${curveOf(mine)}`);
 check(judged.length > 5 && judged.every(({other}) => curveOf(other) === "broken" && Number.isNaN(other.damping_constant) && other.validity === "not valid" && /does not resolve/.test(other.why)), "full.html: has numbers of a curve that contacts do not confirm");
 
-// Another point of a parameter grid.
+// Adhesive surfaces, and then another point of a parameter grid.
 const sticky = await open("sticky.html", {viewport: {width: 1280, height: 900}});
 await checkFigures(sticky, "sticky.html", ["force-gap", "adhesion-loop"]);
 check((await sticky.textContent("#conclusion")).includes("a cycle loses"), "sticky.html: no adhesion work");
@@ -405,7 +405,7 @@ check(await sticky.locator("#damping").count() === 0, "sticky.html: damping with
 const grid = await open("grid.html", {viewport: {width: 1280, height: 900}});
 await checkFigures(grid, "grid.html", ["overview", ...everyFigure]);
 await checkBars(grid, "grid.html");
-// The loss of the motion described stands in the picture, above what it would be without slip, as the card on top has it.
+// The figure shows the loss of the motion as described, as the card on top does, and it is larger than without slip.
 const pictured = await grid.evaluate(() => { const {data: traces} = document.getElementById("damping-curve-plot"), of = (name) => traces.find((trace) => trace.name === name && trace.error_y)?.y ?? []; return [of("computed, with slip"), of("computed, without slip")]; });
 check(pictured[0].some((value, i) => value && pictured[1][i]) && pictured[0].every((value, i) => !value || !pictured[1][i] || value > pictured[1][i]), `grid.html: draws with slip ${pictured[0]}, without ${pictured[1]}`);
 const first = await grid.evaluate(() => document.querySelectorAll("#conclusion .value + .detail")[2].textContent);
@@ -414,7 +414,7 @@ await checkFigures(grid, "grid.html, second point", ["overview", ...everyFigure]
 check(first !== (await grid.evaluate(() => document.querySelectorAll("#conclusion .value + .detail")[2].textContent)), "grid.html: the second point shows the first");
 await picture(grid, "grid-1280.png");
 
-// Names that would like to be markup, in a file that holds next to nothing; the tests in C++ leave it.
+// A minimal file with texts that try to inject markup; the C++ tests leave it.
 try {
   statSync(join(folder, "hostile.html"));
   const hostile = await open("hostile.html", {viewport: {width: 1280, height: 900}});

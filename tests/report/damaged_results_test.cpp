@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The data of a report from result files that were damaged.
+// Tests the data of a report from damaged result files.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <salebra/base/error.hpp>
@@ -14,7 +14,7 @@
 using namespace salebra;
 using Catch::Contains;
 
-// Tests the data alone, which every build makes, also one without plotly.js under a sanitizer.
+// Tests only the data, not the page: every build makes them, also one without plotly.js.
 TEST_CASE("Results with parts missing, empty or short are refused, not read beyond their end",
           "[report][hostile]") {
   const Scratch scratch;

@@ -26,7 +26,7 @@ std::string content(const std::filesystem::path& file) {
   return text.str();
 }
 
-/// What the page draws.
+/// The data in the page.
 Json payload(const std::string& page) {
   const std::string mark = "<script type=\"application/json\" id=\"data\">";
   const auto begin = page.find(mark) + mark.size();
@@ -39,7 +39,7 @@ std::size_t count(const std::string& text, const std::string& part) {
   return found;
 }
 
-/// The least that a study's file has had, with names that would like to be markup.
+/// Writes a minimal file of a study with texts that try to inject markup.
 void write_hostile(const std::filesystem::path& file) {
   Provenance provenance;
   provenance.command_line = "salebra study '</script><script>document.title=\"taken\"</script>'";
@@ -88,7 +88,7 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
   REQUIRE(data["points"].size() == 1);
   const Json& point = data["points"][0];
   REQUIRE(point["pressure"].size() == result.pressures.size());
-  // The page has seven digits of each number.
+  // Numbers in the page have seven digits.
   const EnsembleMean length = result.decay_length();
   const Json& shown = point["fit"]["models"]["bem"]["decay_length"];
   CHECK(shown["mean"].get<double>() == Approx(length.mean).epsilon(1e-6));
@@ -99,7 +99,7 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
         Approx(bend.mean).epsilon(1e-6));
   CHECK(point["fit"]["models"]["bem"]["law_bend"]["low"].get<double>() ==
         Approx(bend.low).epsilon(1e-6));
-  // One verdict: that of the file, in the numbers of the page and in its words without a script.
+  // The data and the text without scripts must give the same verdict as the file.
   const auto law = result.law_description();
   REQUIRE(law);
   CHECK(point["fit"]["models"]["bem"]["fair"] == double(law->fair));
@@ -113,7 +113,7 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
     CHECK(value.is_null() == std::isnan(curve[k].mean));
     if (!value.is_null()) CHECK(value.get<double>() == Approx(curve[k].mean).epsilon(1e-6));
   }
-  // Four bytes a height, four characters for three bytes.
+  // A height has four bytes, and base64 has four characters for three bytes.
   CHECK(point["picture"]["heights"].get<std::string>().size() == (64 * 64 * 4 + 2) / 3 * 4);
   CHECK(point["samples"].size() == 3);
 }
@@ -130,7 +130,9 @@ TEST_CASE("Direct results stand beside the damping of the same motion and of no 
     group.coordinate("time", std::vector<double>{0, 0.25, 0.5}, "1", "time in periods");
     group.dataset("indentation", std::vector<double>{1e-8 + amplitude, 1e-8, 1e-8 - amplitude},
                   {"time"}, "m", "indentation");
-    group.dataset("force", std::vector<double>{3e-6, 2e-6, 1e-6}, {"time"}, "N", "force");
+    // As `oscillate` writes it.
+    group.dataset("normal_force", std::vector<double>{3e-6, 2e-6, 1e-6}, {"time"}, "N",
+                  "normal force");
     group.attribute("work_per_cycle", 4e-21);
     output.commit();
     return scratch / name;
@@ -145,10 +147,10 @@ TEST_CASE("Direct results stand beside the damping of the same motion and of no 
 
   options.direct = {cycle("other.h5", 3e-10)};
   CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
-                    Contains("other.h5: oscillates by 300 pm, the study by 100 pm"));
+                    Contains("other.h5: oscillates by 300 pm, but the study by 100 pm"));
   options.direct = {scratch / "study.h5"};
   CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
-                    Contains("holds no oscillation"));
+                    Contains("not contain an oscillation"));
 }
 
 TEST_CASE("The points of a parameter grid share the room for maps", "[report]") {
@@ -171,7 +173,7 @@ TEST_CASE("Names in a results file stay text, and what an old one lacks is left 
     return;
   const Scratch scratch;
   write_hostile(scratch / "hostile.h5");
-  // Kept for the browser, which says whether any of it runs.
+  // The file is kept: the browser test checks that none of its scripts run.
   const std::filesystem::path html = std::filesystem::path(SALEBRA_PAGES) / "hostile.html";
   write_report(scratch / "hostile.h5", html,
                {.write = {.overwrite = true}, .title = "<script>document.title='taken'</script>"});
@@ -193,10 +195,10 @@ TEST_CASE("A report of a bad file is refused and leaves nothing", "[report]") {
     return;
   const Scratch scratch;
   CHECK_THROWS_AS(write_report(scratch / "none.h5", scratch / "page.html"), InvalidInput);
-  CHECK_THROWS_AS(write_report(scratch.file("text.h5", "no HDF5"), scratch / "page.html"),
+  CHECK_THROWS_AS(write_report(scratch.file("text.h5", "not an HDF5"), scratch / "page.html"),
                   InvalidInput);
   {
-    // Fewer values than the coordinates ask for.
+    // Fewer values than the coordinates require.
     ResultFile output(scratch / "short.h5", {});
     ResultGroup curve = output.group("curve");
     curve.labels("model", {"bem", "gw_moments"}, "model");

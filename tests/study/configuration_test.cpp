@@ -54,7 +54,7 @@ TEST_CASE("An array has units at all of its numbers or at none", "[configuration
        {"[10, 20, \"50MPa\"]", "[\"10\", \"20\", \"50MPa\"]", "\"10,20,50MPa\""})
     CHECK_THROWS_WITH(with(mixed),
                       StartsWith("x.toml:13: contact.pressures: '10,20,50MPa' has a unit "
-                                 "at some of its numbers alone; write 10MPa,20MPa,50MPa"));
+                                 "on only some of its numbers; write 10MPa,20MPa,50MPa"));
 }
 
 TEST_CASE("A measured surface is looked for beside its configuration", "[configuration]") {

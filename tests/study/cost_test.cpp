@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the estimated memory and time of one surface over processes and groups.
+// Tests of the estimated memory and time of one surface on processes and groups.
 #include "study/cost.hpp"
 
 #include <catch2/catch.hpp>
@@ -77,13 +77,13 @@ TEST_CASE("As many groups as fit, and no more than are of use", "[cost]") {
   const std::vector<double> loads(16, 0.02);
   const SurfaceWork work = work_of(4096, loads, 12);
   const auto any = [](double) { return true; };
-  // With 12 processes there are two rounds, for which eight groups do.
+  // With 12 processes there are two rounds, for which eight groups are enough.
   CHECK(groups_that_fit(work, any) == 8);
   CHECK(groups_that_fit(work_of(4096, loads, 64), any) == 16);
   CHECK(groups_that_fit(work_of(4096, loads, 1), any) == 1);
   CHECK(groups_that_fit(work_of(4096, {0.02}, 64), any) == 1);
   CHECK(groups_that_fit(work, [](double) { return false; }) == 1);
-  // What two processes of a group take each: six groups or fewer.
+  // The memory of two processes per group, which allows six groups or fewer.
   SurfaceWork of_two = work;
   of_two.groups = 6;
   const double enough = surface_memory(of_two);
@@ -100,12 +100,12 @@ TEST_CASE("More processes take less time until machines exchange more than they 
   };
   const Cost one = seconds(4, 1), two = seconds(8, 2), many = seconds(64, 16);
   CHECK(one.network_seconds == 0);
-  // 40 bytes a cell and contact in six transforms, of which half leave a machine of two.
+  // 40 bytes per cell and contact in six transforms, of which half leave a machine of two.
   const double bytes = 8 * (4 + 2 * 2) * 16384.0 * 16384.0 / 4;
   CHECK(two.network_seconds > 8 * bytes / Cost::bandwidth);
   CHECK(two.network_seconds < 2 * 8 * bytes / Cost::bandwidth);
   CHECK(many.network_seconds < two.network_seconds);
-  // Each machine presses loads by itself.
+  // Each machine presses its own loads.
   CHECK(seconds(8, 2, 2).network_seconds == 0);
   CHECK_THROWS_AS(seconds(2, 3), InvalidInput);
   CHECK_THROWS_AS(seconds(2, 1, 3), InvalidInput);
@@ -113,7 +113,7 @@ TEST_CASE("More processes take less time until machines exchange more than they 
 
 TEST_CASE("A study over processes takes of each what was measured, and its groups share surfaces",
           "[cost]") {
-  // As it was measured: one surface of 2048² points, four loads up to 0.1 E*h'.
+  // The measured case: one surface of 2048² points, four loads up to 0.1 E*h'.
   StudyConfiguration study = parse_study_configuration(study_text("seed_count = 1", 4), "s.toml");
   auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
   surfaces.grid = {2048, 2048, 1e-5, 1e-5};

@@ -43,8 +43,8 @@ StudyConfiguration quick_study(std::size_t seeds, const std::string& more = "") 
 
 TEST_CASE("Bootstrap intervals of a small Greenwood-Williamson study cover the exact force",
           "[ensemble]") {
-  // 60 summits, seven of them in contact: the force of a realisation is skew, and its mean is known
-  // without chance.
+  // 60 summits, seven of them in contact: the force of a realisation has a skew distribution, and
+  // its mean is known exactly.
   const SummitEnsemble ensemble{.summit_density = 6e11, .radius = 1e-6, .summit_rms = 1e-8};
   const Material material = Material::of_contact_modulus(1e10);
   const double area = 1e-10, separation = 1.2e-8;
@@ -66,7 +66,7 @@ TEST_CASE("Bootstrap intervals of a small Greenwood-Williamson study cover the e
     covered += estimate.low <= exact && exact <= estimate.high;
     by_student += student.low <= exact && exact <= student.high;
   }
-  // 95 % of 200 are 190 ± 3; skewness costs a few.
+  // 95 % of 200 are 190 ± 3; skewness reduces the number by a few.
   CHECK(covered >= 180);
   CHECK(covered <= 198);
   INFO("bootstrap-t " << covered << ", Student " << by_student);
@@ -79,8 +79,8 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
   for (int i = 0; i < 40; ++i) values.push_back(5 + gaussian_pair(3, i, 0).first);
   const EnsembleMean student = student_mean(values), resampled = Bootstrap().mean(values);
   const double half = (student.high - student.low) / 2;
-  // 2000 resamples place a 2.5 % quantile to some 5 % of the width, the sample's own skewness to 10
-  // %.
+  // 2000 resamples determine a 2.5 % quantile to some 5 % of the width; the sample's own skewness
+  // shifts it by 10 %.
   CHECK(resampled.low == Approx(student.low).margin(0.15 * half));
   CHECK(resampled.high == Approx(student.high).margin(0.15 * half));
   CHECK(resampled.mean == student.mean);
@@ -94,8 +94,8 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
 }
 
 TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]") {
-  // Values in pairs about the mean have no skewness: what is left is the chance of 20 000
-  // resamples, 1 % of the width, and the kurtosis of forty values, a few.
+  // Values in pairs about the mean have no skewness. The differences come from the 20 000
+  // resamples, 1 % of the width, and from the kurtosis of forty values, a few per cent.
   std::vector<double> values;
   for (int i = 0; i < 20; ++i) {
     const double step = gaussian_pair(3, i, 0).first;
@@ -104,15 +104,15 @@ TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]
   }
   const EnsembleMean student = student_mean(values), resampled = Bootstrap(20000).mean(values);
   const double half = (student.high - student.low) / 2;
-  // A limit of 5 % would be off by a sixth.
+  // A limit at 5 % would be off by a sixth.
   CHECK(resampled.low == Approx(student.low).margin(0.08 * half));
   CHECK(resampled.high == Approx(student.high).margin(0.08 * half));
 }
 
 TEST_CASE("No mean lies at the edge of its interval, however few or alike the values",
           "[ensemble]") {
-  // Six seeds of which five agree: resampling without the sixth has no scatter, and would put the
-  // mean at the edge.
+  // Five of six seeds agree: resamples without the sixth have no scatter, and would put the mean at
+  // the edge.
   std::vector<double> values{0.4205, 0.4198, 0.4201, 0.4203, 0.4196, 0.54};
   for (int count : {6, 12, 19, 20, 40}) {
     INFO(count);
@@ -128,8 +128,8 @@ TEST_CASE("No mean lies at the edge of its interval, however few or alike the va
 }
 
 TEST_CASE("A bootstrap interval has the bits of its definition, on any threads", "[ensemble]") {
-  // Resample r draws place k by the first uniform number of (seed 1, r, k); t* = (mean* − mean)/s*;
-  // quantiles between order statistics.
+  // Resample r draws its value k by the first uniform number of (seed 1, r, k); t* = (mean* −
+  // mean)/s*; quantiles are interpolated between order statistics.
   constexpr std::size_t n = 37, resamples = 400;
   std::vector<double> values, statistics;
   for (int i = 0; i < int(n); ++i) values.push_back(2 + gaussian_pair(8, i, 0).first);
@@ -178,7 +178,7 @@ TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensembl
   for (std::size_t count = 2; count <= 128; ++count) CHECK(counts[count - 2] == count);
   CHECK(counts[127] == 132);
   CHECK(counts.back() == 3000);
-  // 32 in each of the four doublings from 128 to 2048, 14 in steps of 64 from there on, and 3000.
+  // 32 in each of the four doublings from 128 to 2048, 14 in steps of 64 after that, and 3000.
   CHECK(counts.size() == 127 + 4 * 32 + 14 + 1);
   for (std::size_t i = 127; i + 1 < counts.size(); ++i)
     CHECK(double(counts[i + 1]) <= 1.04 * double(counts[i]));
@@ -192,14 +192,14 @@ TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensembl
 }
 
 TEST_CASE("Too many combinations of an ensemble are counted before one is made", "[ensemble]") {
-  // The text of a study of 85 kB: 8e9 combinations would take the memory of the machine.
+  // A study file of 85 kB: 8e9 combinations would take the memory of the machine.
   StudyConfiguration configuration = quick_study(2);
   configuration.ensemble.hurst.assign(2000, 0.8);
   configuration.ensemble.rolloff.assign(2000, 1e-6);
   configuration.ensemble.short_cutoff.assign(2000, 0.5e-6);
   CHECK_THROWS_WITH(parameter_combinations(configuration),
                     Catch::StartsWith("ensemble: its lists make 8000000000 combinations"));
-  // Few combinations of many seeds take as much.
+  // A few combinations with many seeds take as much.
   configuration.ensemble = {.hurst = std::vector(1000, 0.8)};
   auto& seeds = std::get<GeneratedSurfaces>(configuration.surfaces).seeds;
   seeds.resize(100000);
@@ -223,7 +223,7 @@ TEST_CASE("The lists of an ensemble make every combination, cells or size held",
   configuration.ensemble = {.points = {64, 128}};
   CHECK(std::get<GeneratedSurfaces>(parameter_combinations(configuration)[1].surfaces).grid ==
         Grid2D{128, 128, 4e-6, 4e-6});
-  // A strip keeps its shape and its cells stay square.
+  // A strip keeps its shape, and its cells stay square.
   StudyConfiguration strip = configuration;
   std::get<GeneratedSurfaces>(strip.surfaces).grid = {64, 32, 4e-6, 2e-6};
   const auto strips = parameter_combinations(strip);
@@ -233,7 +233,7 @@ TEST_CASE("The lists of an ensemble make every combination, cells or size held",
           Grid2D{64 * factor, 32 * factor, 4e-6, 2e-6});
   CHECK(describe_point(strip.ensemble, strips[1]) == "128 x 64 points");
   configuration.ensemble = {.size_x = {4.01e-6}};
-  CHECK_THROWS_WITH(parameter_combinations(configuration), Catch::Contains("whole numbers"));
+  CHECK_THROWS_WITH(parameter_combinations(configuration), Catch::Contains("a whole number"));
   configuration.ensemble = {.short_cutoff = {0.01e-6}};
   CHECK_THROWS_AS(parameter_combinations(configuration), InvalidInput);
   CHECK_THROWS_AS(run_study(quick_study(1, "[ensemble]\nrolloff = [\"1um\", \"2um\"]\n")),
@@ -268,8 +268,8 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   REQUIRE(one.realisations.size() >= 3);
   REQUIRE(one.realisations.size() < 40);
   REQUIRE(three.realisations.size() == one.realisations.size());
-  // The least number is enough where it is precise enough; where there are no more seeds, none was
-  // spared.
+  // The minimum number is enough if it is precise enough. If all seeds are used, precision_reached
+  // stays false.
   configuration.target_precision = 100;
   const StudyResult least = run_study(configuration);
   CHECK(least.realisations.size() == 3);
@@ -282,7 +282,7 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   CHECK(mean.relative_precision() <= 0.2);
   CHECK(three.decay_length(ContactModel::bem).low == one.decay_length(ContactModel::bem).low);
   CHECK(three.realisations.back().seed == one.realisations.back().seed);
-  // One fewer would not have done, unless the least number decided.
+  // One fewer would not have been enough, unless the minimum number decided.
   if (one.realisations.size() > 3) {
     const EnsembleMean before = one.convergence()[one.realisations.size() - 3];
     std::vector<double> slopes;
@@ -297,7 +297,7 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
           "[ensemble]") {
   StudyConfiguration configuration = quick_study(12);
   configuration.min_realisations = 3;
-  // One light load gives the area slope, which scatters; l comes from many heavy ones.
+  // A single light load gives the area slope, which scatters; many heavy loads give l.
   configuration.pressures = {0.0022, 0.06, 0.075, 0.09, 0.11, 0.13, 0.16, 0.2};
   const double scale = study_loads(configuration).contact_scale;
   configuration.window = PressureWindow{0.05 * scale, 0.3 * scale, 0};
@@ -317,8 +317,8 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
       ++count;
     return count;
   };
-  // Between the two precisions after some number of surfaces, one of the quantities suffices there
-  // and the other does not.
+  // At a precision between those of both quantities after some number of surfaces, one of them is
+  // precise enough and the other is not.
   for (std::size_t count = 3; count < 12 && configuration.target_precision == 0; ++count) {
     const double between = std::sqrt(length_precision[count - 1] * slope_precision[count - 1]);
     if (enough(between, true) != enough(between, false)) configuration.target_precision = between;
@@ -327,7 +327,7 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
   REQUIRE(configuration.target_precision > 0);
   CHECK(run_study(configuration).realisations.size() ==
         enough(configuration.target_precision, true));
-  // Without the light load there is no area slope to wait for, and the fit has the same loads.
+  // Without the light load there is no area slope to wait for, while the fit has the same loads.
   configuration.pressures.erase(configuration.pressures.begin());
   const StudyResult heavy = run_study(configuration);
   CHECK(std::isnan(heavy.realisations.front().of(ContactModel::bem).area_slope));
@@ -344,7 +344,7 @@ TEST_CASE("A precision ends an ensemble at a milestone only, from the least numb
   bem.model = ContactModel::bem;
   bem.fit.decay_length = bem.area_slope = 2;
   realisation.models = {bem};
-  // Equal surfaces are precise enough at once. Beyond 128 every fourth number is a milestone.
+  // Equal surfaces are precise enough at once. Beyond 128 only every fourth number is a milestone.
   for (const auto& [least, end] : {std::pair{2, 2}, {7, 7}, {129, 132}, {132, 132}}) {
     configuration.min_realisations = least;
     detail::PrecisionRule rule(configuration);
@@ -383,7 +383,7 @@ TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ense
     const double gap = tight.realisations[0].of(ContactModel::bem).curve.samples[k].mean_gap,
                  rough = loose.realisations[0].of(ContactModel::bem).curve.samples[k].mean_gap;
     CHECK(rough != gap);
-    // e_c is relative to the rms height; the gap follows with it.
+    // e_c is relative to the rms height, and so is the error of the gap.
     CHECK(rough == Approx(gap).margin(1e-2 * tight.realisations[0].heights.rms_height));
   }
   for (const StudyModel& model : windowed.models()) {
@@ -452,13 +452,13 @@ TEST_CASE("Two equal rough sides carry what the pairs of their summits carry", "
   const StudyResult result = run_study(configuration);
   const Realisation& r = result.realisations.front();
   const ForceSample& sample = r.of(ContactModel::greenwood_tripp).curve.samples[4];
-  // A side has half of each moment: η and σ_s²/m0 of Nayak's theory depend on α alone, which stays;
-  // R grows by √2.
+  // A side has half of each moment. η and σ_s²/m0 of Nayak's theory depend only on α, which does
+  // not change; R grows by √2.
   const double density = r.ensemble.summit_density,
                radius = std::numbers::sqrt2 * r.ensemble.radius,
                side_rms = r.ensemble.summit_rms / std::numbers::sqrt2;
-  // F = (4/3)E*√(R/2) ∫∫ w^{3/2} over the positions and the heights of a pair, by Riemann sums: w =
-  // z − s − r²/(4R).
+  // F = (4/3)E*√(R/2) ∫∫ w^{3/2} over the positions and the heights of a pair, by Riemann sums,
+  // with w = z − s − r²/(4R).
   const double sum_rms = std::numbers::sqrt2 * side_rms, area = r.grid.area();
   const double top = 8 * sum_rms - sample.separation;
   double force = 0;
@@ -468,14 +468,15 @@ TEST_CASE("Two equal rough sides carry what the pairs of their summits carry", "
     const double height_density =
         std::exp(-z * z / (2 * sum_rms * sum_rms)) / (sum_rms * std::sqrt(2 * std::numbers::pi));
     for (int j = 0; j < steps; ++j) {
-      // Part of the depth that the distance of the axes takes; r dr = 2R dw.
+      // Fraction of the depth that the distance of the axes takes; r dr = 2R dw.
       const double part = (j + 0.5) / steps;
       force += height_density * std::pow(depth * (1 - part), 1.5) * 4 * std::numbers::pi * radius *
                depth / steps * top / steps;
     }
   }
   force *= 4. / 3 * 1e10 * std::sqrt(radius / 2) * density * density * area;
-  // Midpoint sums of 400 steps of functions that are smooth but for a power 3/2 at one end: 1e-6.
+  // Midpoint sums of 400 steps over functions that are smooth except for a power 3/2 at one end:
+  // 1e-6.
   CHECK(sample.force == Approx(force).epsilon(1e-5));
   CHECK(sample.force == Approx(result.pressures[4] * area).epsilon(1e-6));
 }
@@ -499,8 +500,8 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
     along_y += std::pow(level.heights(ix, 0) - level.heights(ix, 47), 2) / 64;
   const double rms_height = height_statistics(level).rms_height;
   CHECK(r.seam_step == Approx(std::sqrt((along_x + along_y) / 2) / rms_height).epsilon(1e-9));
-  // A point of the border has no eight neighbours: summits are sought, and counted, on 62 × 46
-  // cells.
+  // A point of the border lacks some of the eight neighbours, so summits are searched and counted
+  // on 62 × 46 cells.
   const SummitList summits = find_summits(level);
   CHECK(r.of(ContactModel::gw_deterministic).curve.nominal_area ==
         Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
@@ -510,7 +511,7 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
 
 TEST_CASE("A smooth shape has no summits from moments, and everything else", "[ensemble]") {
   const Scratch scratch;
-  // A paraboloid in a square has m0 m4/m2² below 1: no random surface has such moments.
+  // A paraboloid in a square has m0 m4/m2² below 1, unlike any random surface.
   write_surface(scratch / "ball.npy", paraboloid_surface({32, 32, 4e-6, 4e-6}, 100e-6), {});
   StudyConfiguration configuration = quick_study(1);
   configuration.surfaces = MeasuredSurface{.file = scratch / "ball.npy"};
@@ -534,11 +535,12 @@ TEST_CASE("A smooth shape has no summits from moments, and everything else", "[e
 TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const auto names = [](const StudyResult& result) {
     std::vector<std::string> found;
-    for (const EnsembleWarning& found : result.ensemble_warnings) found.push_back(flag.name);
+    for (const EnsembleWarning& warning : result.ensemble_warnings) found.push_back(warning.name);
     return found;
   };
   StudyConfiguration configuration = quick_study(1);
-  // Roll-off at a quarter of the size, cut-off at exactly eight cells, a handful of spots.
+  // Roll-off at a quarter of the size, cut-off at exactly eight cells, a handful of contact
+  // patches.
   CHECK(names(run_study(configuration)) == std::vector<std::string>{"finite_size", "few_spots"});
   auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   surfaces.spectrum.rolloff = 0.25e-6;
@@ -546,11 +548,11 @@ TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const auto fine = names(run_study(configuration));
   CHECK(fine.front() == "discretisation");
   CHECK(std::ranges::find(fine, "finite_size") == fine.end());
-  // The shorter side of a strip counts: eight roll-offs, however long the other.
+  // The shorter side of a strip counts: eight roll-offs, however long the other side is.
   surfaces.grid = {128, 32, 8e-6, 2e-6};
   const auto strip = names(run_study(configuration));
   CHECK(strip.front() == "finite_size");
-  // Spots count where the law is fitted: fifty there are enough, though the lightest loads have
+  // Patches count in the range of the fit: fifty there are enough, although the lightest loads have
   // fewer.
   surfaces.grid = {64, 64, 4e-6, 4e-6};
   configuration.relative_pressures = true;
@@ -575,17 +577,17 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
       const ModelResult& found = realisation.of(model.id);
       REQUIRE(found.curve.samples.size() == 12);
       REQUIRE(found.damping.size() == 12);
-      // Whatever the model, l/h_rms of a Gaussian surface is a fraction of one.
+      // For every model l/h_rms of a Gaussian surface is below one.
       CHECK(found.fit.decay_length / realisation.heights.rms_height > 0.1);
       CHECK(found.fit.decay_length / realisation.heights.rms_height < 1);
       CHECK(found.curve.samples[4].force == Approx(result.pressures[4] * 16e-12).epsilon(1e-6));
     }
   }
-  // A model over itself is one.
+  // The ratio of a model to itself is one.
   const auto unity = result.over_bem(&ForceSample::mean_gap, ContactModel::bem);
   CHECK(unity[3].mean == 1);
   CHECK(result.damping_over_bem(&DampingPoint::work_per_cycle, ContactModel::bem)[5].mean == 1);
-  // And of another model the mean of what each surface says.
+  // For another model it is the mean of the ratios on each surface.
   double stiffness = 0, work = 0;
   for (const Realisation& r : result.realisations) {
     stiffness += r.of(ContactModel::persson).curve.samples[3].normal_stiffness /
@@ -599,7 +601,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
             .damping_over_bem(&DampingPoint::work_per_cycle_closed_form,
                               ContactModel::gw_deterministic)[5]
             .mean == Approx(work).epsilon(1e-14));
-  // Spots by size are all spots, and their area is the contact area.
+  // The numbers by size add up to all patches, and their areas to the contact area.
   const Realisation& first = result.realisations.front();
   double spots = 0;
   for (const double count : first.spots[6].spots_by_size) spots += count;
@@ -609,8 +611,8 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
             .epsilon(1e-12));
   CHECK(first.spots[6].corrected_area_fraction <
         first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
-  // This is the same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the
-  // largest is the largest.
+  // The same contact, solved again: patches of n cells count where 2^k <= n < 2^(k+1), and the
+  // largest areas agree.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
       press(surface, 1e10, at_pressure(result.pressures[6]), {.tolerance = 1e-8});
@@ -623,8 +625,8 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   }
   CHECK(first.spots[6].spots_by_size == sizes);
   CHECK(first.spots[6].max_spot_area == Approx(largest).epsilon(1e-12));
-  // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from
-  // its rms one by 2^(1/16) − 1 at most.
+  // Persson's theory has the slope of the surface's own modes; the mean radius of a ring differs
+  // from its rms radius by at most 2^(1/16) − 1.
   CHECK(first.of(ContactModel::persson).curve.samples[6].contact_area_fraction ==
         Approx(persson_area_fraction(result.pressures[6], 1e10, first.moments.rms_slope()))
             .epsilon(0.02));
@@ -633,7 +635,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
 TEST_CASE("A comparison computes the models it was asked for, and no others", "[ensemble]") {
   StudyConfiguration configuration =
       quick_study(1, "[compare]\nmodels = [\"persson\", \"gw_moments\", \"persson\"]\n");
-  CHECK(configuration.models.size() == 3);  // those of `study`, which [compare] leaves alone
+  CHECK(configuration.models.size() == 3);  // those of `study`, which [compare] does not change
   configuration.models = configuration.compared_models;
   CHECK(configuration.models ==
         std::vector{ContactModel::bem, ContactModel::gw_moments, ContactModel::persson});
@@ -661,7 +663,7 @@ TEST_CASE("Exponential heights make Eq. (16) exact, with l = sigma", "[ensemble]
       relaxation_damping(law, at_force(force), drag, {.amplitude = Amplitude::small});
   const double by_paper =
       closed_form::work_per_cycle_rough(material.modulus_ratio(), force, 2e-8, drag);
-  // Both are closed forms: round-off.
+  // Both are closed forms, so they differ by round-off only.
   CHECK(exact.work_per_cycle == Approx(by_paper).epsilon(1e-10));
   const ForceCurve curve =
       curve_at_pressures(StatisticalSummits(ensemble, material, 1e-10), {1e5, 1e6, 1e7, 1e8});
@@ -670,7 +672,8 @@ TEST_CASE("Exponential heights make Eq. (16) exact, with l = sigma", "[ensemble]
 
 TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within their intervals",
           "[ensemble]") {
-  // A narrow ring of wavelengths on a lattice that finds all summits: what Nayak's theory is about.
+  // A narrow ring of wavelengths on a grid fine enough to find all summits, the case of Nayak's
+  // theory.
   const Grid2D grid{256, 256, 16e-6, 16e-6};
   const SelfAffineSpectrum spectrum({.hurst = 0.8,
                                      .long_cutoff = 1e-6,
@@ -694,8 +697,8 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
     const double statistical = force_at_gap(StatisticalSummits(ensemble, material, grid.area()));
     const double own = force_at_gap(DeterministicSummits(find_summits(surface).summits, material,
                                                          grid.area(), surface.heights.mean()));
-    // As many summits of that density are drawn at random: by how much one surface of this size may
-    // differ from the mean, and where the mean is.
+    // Draws as many summits of that density at random, which shows by how much one surface of this
+    // size may differ from the mean, and where the mean is.
     const int count = int(std::lround(ensemble.summit_density * grid.area()));
     std::vector<double> drawn;
     for (int draw = 0; draw < draws; ++draw)
@@ -703,7 +706,7 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
           DeterministicSummits(draw_summits(ensemble, count, grid.lx, std::uint64_t(seed), draw),
                                material, grid.area(), -ensemble.mean_height)));
     const EnsembleMean mean = student_mean(drawn);
-    // N is a whole number, ηA0 is not.
+    // N is an integer, ηA0 is not.
     const double rounding = statistical * 0.5 / count;
     statistical_inside += mean.low - rounding < statistical && statistical < mean.high + rounding;
     std::ranges::sort(drawn);
@@ -712,8 +715,8 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
   }
   INFO("at " << distance << " h_rms: " << own_inside << " and " << statistical_inside
              << " of 20, ratio " << ratio);
-  // 95 % of 20 are 19 ± 1; fewer than 16 would happen once in 400 times, if nothing but chance were
-  // at work. Own summits are not equal spheres: the higher ones are sharper.
+  // 95 % of 20 are 19 ± 1; by chance alone fewer than 16 would occur once in 400 times. The
+  // surface's own summits are not equal spheres: the higher ones are sharper.
   CHECK(statistical_inside >= 16);
   CHECK(own_inside >= 16);
 }

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder name that is free, and is free again afterwards.
+/// A free folder name, which is free again afterwards.
 struct Scratch {
   fs::path folder =
       fs::temp_directory_path() / ("salebra-parts-" + std::to_string(getpid()) + ".parts");
@@ -115,7 +115,7 @@ TEST_CASE("A damaged part is found out wherever a bit of it has changed", "[part
   put("");
   std::ofstream(file, std::ios::binary) << good;
   CHECK(parts.read(42));
-  // The right file under another key is another realisation.
+  // A valid file under another key is another realisation.
   fs::rename(file, scratch.folder / "000000000000002b.realisation");
   CHECK_FALSE(parts.read(43));
 }
@@ -198,12 +198,12 @@ TEST_CASE("The key of a measured surface changes with all that is read of it", "
   other = plain;
   other.detrend = Detrend::quadratic;
   CHECK(key_of(other) != key);
-  // The same surface under another name is the same surface.
+  // The same surface under another file name has the same key.
   other = plain;
   other.file = scratch.folder / "copy.npy";
   fs::copy_file(scan, other.file);
   CHECK(key_of(other) == key);
-  // Size and unit of an array stand beside it.
+  // The sidecar gives the size and unit of an array.
   write(scratch.folder / "scan.npy.json", "{\"size_x\": 1e-6}");
   const auto with_sidecar = key_of(plain);
   CHECK(with_sidecar != key);
@@ -222,8 +222,8 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
   StudyParts parts(scratch.folder, false);
   const std::vector<double> pressures = study_loads(study).pressures;
   const std::string here = arithmetic();
-  // It computes as the oldest processor does; the baseline of other architectures is all that there
-  // is.
+  // The baseline computes as the oldest processor does; other architectures have nothing but a
+  // baseline.
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
   const std::string baseline = arithmetic();
   parts.write(StudyParts::key(study, 2),
@@ -234,11 +234,11 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
   };
   if (testing::skipped(here == baseline, "this processor computes as the oldest does")) return;
   CHECK_THROWS_WITH(resume(),
-                    StartsWith(scratch.folder.string() + ": its surfaces were computed by ") &&
+                    StartsWith(scratch.folder.string() + ": its surfaces were computed with ") &&
                         Contains("vectors baseline") && Contains(here));
   CHECK(parts.count() == 1);
   CHECK(parts.damaged() == 0);
-  // Where they were begun they go on.
+  // A study resumes with the arithmetic with which it began.
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
   CHECK(resume().front().realisations.size() == 2);
   CHECK(parts.count() == 2);
@@ -264,14 +264,14 @@ TEST_CASE("A pipe in place of the lock is refused, not waited for", "[parts]") {
   const Scratch scratch;
   fs::create_directory(scratch.folder);
   REQUIRE(mkfifo((scratch.folder / "lock").c_str(), 0600) == 0);
-  CHECK_THROWS_WITH(StudyParts(scratch.folder, true), Contains("lock: is no regular file"));
+  CHECK_THROWS_WITH(StudyParts(scratch.folder, true), Contains("lock: is not a regular file"));
 }
 
 TEST_CASE("The lock of a dead process is taken over at once", "[parts]") {
   const Scratch scratch;
   const pid_t child = fork();
   if (child == 0) {
-    new StudyParts(scratch.folder, false);  // never unlocked: as if it had been killed
+    new StudyParts(scratch.folder, false);  // never unlocked, as if the process had been killed
     _exit(0);
   }
   waitpid(child, nullptr, 0);
@@ -293,7 +293,8 @@ TEST_CASE("A stopped process keeps its lock for as long as it lives", "[parts]")
   kill(child, SIGSTOP);
   waitpid(child, nullptr, WUNTRACED);
   CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by process"));
-  // Killed, it is gone at once, though it stays in the table of processes until its parent looks.
+  // A killed process loses the lock at once, although it stays in the process table until its
+  // parent waits.
   kill(child, SIGKILL);
   siginfo_t dead = {};
   waitid(P_PID, id_t(child), &dead, WEXITED | WNOWAIT);
@@ -313,7 +314,7 @@ TEST_CASE("A lock that several share is gone with the last of them", "[parts]") 
   CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by shards"));
   second.reset();
   CHECK_FALSE(fs::exists(file));
-  // A file that a process of any version left is the lock of nobody, whatever its date.
+  // A file that any process left is nobody's lock, whatever its date is.
   std::ofstream(file) << "elsewhere boot space\n1\n2\nword\n";
   fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(24));
   const detail::StudyLock taken(file);
@@ -348,7 +349,7 @@ TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]
   for (std::size_t i = 0; i < 3; ++i)
     CHECK(resumed.front().realisations[i].of(ContactModel::bem).damping[5].work_per_cycle ==
           whole.realisations[i].of(ContactModel::bem).damping[5].work_per_cycle);
-  // Other settings are other surfaces: nothing here is theirs.
+  // With other settings the study has other surfaces, and none of these is its own.
   study.tolerance = 1e-9;
   CHECK_THROWS_WITH(
       run_ensembles(study, {.on_progress = {}, .on_realisation = {}, .parts = &parts}),

@@ -37,7 +37,8 @@ TEST_CASE("The drag integral J(k) is that of an independent quadrature", "[refer
   REQUIRE(rows.size() == 12);
   for (const auto& row : rows) {
     INFO("k = " << row[0]);
-    // The function promises about 1e-15 of e^{−k}J, and e^k has a relative error of k epsilon.
+    // The function is accurate to about 1e-15 of e^{−k}J, and e^k has a relative error of k
+    // epsilon.
     CHECK(closed_form::drag_integral_scaled(row[0]) * std::exp(row[0]) ==
           Approx(row[1]).epsilon(2e-14).margin(0));
   }
@@ -54,7 +55,7 @@ TEST_CASE("Greenwood and Williamson's integrals are those of an independent quad
     INFO("h = " << row[0]);
     const AsperityContact contact = summits.at(row[0] * ensemble.summit_rms);
     const double scale = modulus * std::sqrt(ensemble.radius) * ensemble.summit_density * area;
-    // The quadrature of the library promises 1e-10.
+    // The quadrature of the library has an error of 1e-10.
     CHECK(contact.normal_stiffness ==
           Approx(2 * scale * std::sqrt(ensemble.summit_rms) * row[1]).epsilon(1e-10).margin(0));
     CHECK(contact.contact_area == Approx(std::acos(-1) * ensemble.radius * ensemble.summit_density *

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of how peak memory grows with the number of surfaces, loads, steps and points.
+// Tests of the growth of peak memory with the number of surfaces, loads, steps and points.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,15 +32,16 @@ double status_bytes(const std::string& name) {
   return std::nan("");
 }
 
-/// How far the resident memory of a process of its own rises above its start, bytes. One thread:
-/// what threads share does not depend on chance, and a forked process has none of its parent's.
+/// Growth of the resident memory of a separate process above its start, bytes. It uses one thread,
+/// so that the memory does not depend on the sharing between threads, and a forked process has none
+/// of its parent's threads.
 double peak_growth(const std::function<void()>& work) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
   const pid_t child = fork();
   if (child == 0) {
     parallel::set_threads(1);
-    // 5: the peak of getrusage(2) and VmHWM begins anew, proc_pid_clear_refs(5).
+    // 5: resets the peak of getrusage(2) and VmHWM, proc_pid_clear_refs(5).
     std::ofstream("/proc/self/clear_refs") << 5 << std::flush;
     const double before = status_bytes("VmRSS:");
     work();
@@ -59,7 +60,7 @@ double peak_growth(const std::function<void()>& work) {
 }
 
 Surface rough(Index points) {
-  parallel::set_threads(1);  // a team of threads would not be there after fork()
+  parallel::set_threads(1);  // a team of threads would not exist after fork()
   return filtered_noise(
       {points, points, 4e-6, 4e-6},
       SelfAffineSpectrum(
@@ -72,8 +73,8 @@ const Material material = Material::of_contact_modulus(1e10, 0.3);
 }  // namespace
 
 TEST_CASE("The memory of a study grows with its surfaces as their samples do", "[scaling]") {
-  // Surfaces as a study has them, of four loads and three models, without the contacts that would
-  // take the time.
+  // Surfaces like those of a study, with four loads and three models, but without the contacts,
+  // which would take the time.
   StudyConfiguration study = parse_study_configuration(study_text("seeds = [1]", 4), "four.toml");
   study.stick = false;
   const auto written = [&](std::size_t surfaces) {
@@ -95,11 +96,11 @@ TEST_CASE("The memory of a study grows with its surfaces as their samples do", "
   const double few = written(300), many = written(600), more = written(900);
   INFO(few << ' ' << many << ' ' << more);
   // Per surface: the Realisation itself, 0.8 kB; three models of 0.4 kB, and for each of four loads
-  // 3 × 216 bytes of samples and 140 of spots: 5.2 kB. The file has 4 kB of it, and goes to the disk
-  // while it is made. The bootstrap's table took 4000 bytes for each surface and each smaller number
-  // of them, 3 MB for each of the last 300.
+  // 3 × 216 bytes of samples and 140 of patches: 5.2 kB. The file holds 4 kB of this, and goes to
+  // the disk while it is made. The bootstrap's table took 4000 bytes for each surface and each
+  // smaller number of surfaces, 3 MB for each of the last 300.
   CHECK((more - few) / 600 < 7e3);
-  // Linear: the second 300 take what the first took, but for two megabytes of the heap.
+  // Linear: the second 300 take as much as the first, up to two megabytes of the heap.
   CHECK(more - many < many - few + 2e6);
 }
 
@@ -125,10 +126,11 @@ TEST_CASE("A text of points is read without being in memory", "[scaling]") {
   constexpr Index n = 1024;
   write_surface(scratch / "points.xyz", rough(n));
   const double growth = peak_growth([&] { read_surface(scratch / "points.xyz"); });
-  // Three coordinates, the height on its grid and a byte that marks it are 33 bytes; of so few
-  // points the heap keeps the list before it doubled last, 16 bytes a point. The text has 57.
+  // Three coordinates, the height on its grid and a byte that marks it are 33 bytes. With so few
+  // points the heap also keeps the list before its last doubling, 16 bytes per point. The text has
+  // 57.
   CHECK(growth < 60. * n * n);
-  CHECK(growth > 32. * n * n);  // or nothing was measured
+  CHECK(growth > 32. * n * n);  // otherwise nothing was measured
 }
 
 TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
@@ -140,9 +142,9 @@ TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
       sweep_pressures(surface, material, pressures, {.concurrent_loads = 1});
     });
   };
-  // A field of 65536 cells alone would be 0.5 MB a load: what grows are samples of 72
-  // bytes. One load at a time: of two, more loads are more chances that both stand at their peaks
-  // at once. Steps of the heap, up to 1.3 MB, come with the layout of a run and not with a load.
+  // A field of 65536 cells alone would be 0.5 MB per load; only samples of 72 bytes may grow. Loads
+  // run one at a time, because with two, more loads mean more chances that both are at their peak
+  // at once. Steps of the heap, up to 1.3 MB, depend on the layout of a run and not on a load.
   CHECK(swept(208) - swept(16) < 192 * 10e3);
 }
 
@@ -167,11 +169,11 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
                      {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
     });
   };
-  // Many steps are taken: the pools of the solves grow with the largest sets and leave gaps in the
-  // heap, up to a megabyte in all.
+  // Takes many steps, because the memory pools of the solves grow with the largest sets and leave
+  // gaps in the heap, up to a megabyte in all.
   const double each = (simulated(256) - simulated(32)) / 224;
-  // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles
-  // would be 8 bytes.
+  // The falling half reuses the sets of the rising half: half a set of one byte per cell. A field
+  // of doubles would be 8 bytes.
   CHECK(each < 0.5 * n * n * 1.25);
 }
 
@@ -181,8 +183,8 @@ TEST_CASE("The memory of a contact is 43 bytes a cell and its result's", "[scali
     return peak_growth([&] { press(surface, 1e10, at_pressure(2e7)); });
   };
   const double each = (pressed(1024) - pressed(512)) / (1024. * 1024 - 512. * 512);
-  // docs/reliability.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are
-  // half; large pages add up to 2 MB for each of some ten arrays, 25 bytes a cell here.
+  // docs/reliability.md, "Memory": 43 with contact on a tenth of the cells, half of it for tiles.
+  // Large pages add up to 2 MB for each of some ten arrays, 25 bytes per cell here.
   CHECK(each < 70);
-  CHECK(each > 20);  // or nothing was measured
+  CHECK(each > 20);  // otherwise nothing was measured
 }

@@ -72,7 +72,7 @@ Merged merge(const Scratch& scratch, const StudyConfiguration& study) {
   return merged;
 }
 
-/// The bytes of a results file, with the dates of all others.
+/// The bytes of a result file, with the same dates in all files.
 std::string file_of(const Scratch& scratch, const std::vector<StudyResult>& results) {
   const fs::path file = scratch.folder / "result.h5";
   write_ensembles(file, results, {.created = "2026-01-01T00:00:00Z"}, {.overwrite = true});
@@ -119,9 +119,9 @@ TEST_CASE("Shards in any order, some twice, merge to the bytes of one run", "[sh
   CHECK(again.wanted == 2);
   CHECK(again.present == 2);
   CHECK(again.computed == 0);
-  // What is missing is named by its place: those of the second shard.
+  // Missing surfaces are named by their index: those of the second shard.
   CHECK(merge(scratch, study).missing == std::vector<std::size_t>{1, 4, 7});
-  // Another number of shards skips what is there.
+  // A division into another number of shards skips existing surfaces.
   CHECK(compute(scratch, study, "2/4").computed == 1);
   CHECK(compute(scratch, study, "any").computed == 2);
   const Merged merged = merge(scratch, study);
@@ -139,7 +139,7 @@ TEST_CASE("A merge stops where one run would have stopped for its precision", "[
   const std::size_t enough = whole.front().realisations.size();
   REQUIRE(enough < 11);
   REQUIRE(whole.front().precision_reached);
-  // One surface lies beyond, and the others beyond are not missed.
+  // One surface lies beyond the limit, and the others beyond it are not missing.
   compute(scratch, study, "12/12");
   for (std::size_t shard = 1; shard <= enough; ++shard)
     compute(scratch, study, std::to_string(shard) + "/12");
@@ -147,8 +147,8 @@ TEST_CASE("A merge stops where one run would have stopped for its precision", "[
   Merged merged = merge(scratch, study);
   CHECK(merged.missing.empty());
   CHECK(file_of(scratch, merged.results) == file_of(scratch, whole));
-  // Before each surface `any` looks whether those before it are enough; one thread has none in hand
-  // meanwhile.
+  // Before each surface `any` checks whether the surfaces before it are enough; a single thread has
+  // no surface in progress meanwhile.
   fs::remove_all(scratch.parts);
   parallel::set_threads(1);
   const ShardOutcome outcome = compute(scratch, study, "any");
@@ -188,7 +188,7 @@ TEST_CASE("A merge finds damaged parts, and those of other settings and versions
   }
   CHECK(versions == std::multiset<std::string>{"", "0.0.9", std::string(version())});
   CHECK(shards == std::multiset<std::string>{"", "1/2", "2/3"});
-  // They are somebody's work: only one's own goes when the result is safe.
+  // The parts are somebody's work: when the result is safe, only the study's own are removed.
   parts->discard(keys);
   CHECK(realisations(scratch).size() == 3);
 }
@@ -232,12 +232,12 @@ TEST_CASE("Shards share the folder with each other, and with nobody else", "[sha
     const auto same = StudyParts::of_shard(scratch.parts, {1, 3});
     CHECK_THROWS_WITH(StudyParts::to_merge(scratch.parts), Contains("in use by shards"));
     CHECK_THROWS_WITH(StudyParts(scratch.parts, true), Contains("in use by shards"));
-    // What another writes now, and a file that a killed one left, stay.
+    // A file that another process is writing now, and one that a killed process left, stay.
     std::ofstream(scratch.parts / ".000000000000002a.realisation.1-0.part") << "half of it";
     const auto late = StudyParts::of_shard(scratch.parts, {2, 3});
     CHECK(fs::exists(scratch.parts / ".000000000000002a.realisation.1-0.part"));
   }
-  // Nor does a shard remove an empty folder, in which another may be about to start.
+  // A shard does not remove an empty folder either, because another may be about to start in it.
   CHECK(fs::exists(scratch.parts));
   {
     const StudyParts alone(scratch.parts, true);
@@ -262,7 +262,7 @@ TEST_CASE("A claim holds while its process lives, and no longer", "[shard]") {
     CHECK(outcome.elsewhere == 1);
   }
   CHECK(merge(scratch, study).missing == std::vector<std::size_t>{1});
-  // A file without a lock is what a killed process left.
+  // A claim file without a lock is left from a killed process.
   std::ofstream(claim) << "process 1 on elsewhere";
   CHECK(compute(scratch, study, "any").computed == 1);
   CHECK_FALSE(fs::exists(claim));
@@ -299,7 +299,7 @@ TEST_CASE("The number of shards follows from the time that one may take", "[shar
   CHECK(plan.shards == 4);
   CHECK(plan.surfaces == 10);
   CHECK(plan.seconds == Approx(250));
-  // One contact on all threads takes 100/(1 + 0.75·3) s: no number of shards is faster.
+  // One contact on all threads takes 100/(1 + 0.75·3) s, and no number of shards is faster.
   const ShardPlan most = plan_shards(cost, 1);
   CHECK(most.shards == 40);
   CHECK(most.surfaces == 1);

@@ -19,7 +19,7 @@
 #include "ranks_in_threads.hpp"
 #include "study_text.hpp"
 
-// A study over several processes: every number has the bits of one process, hence no tolerance is
+// A study on several processes: every number has the bits of one process, so no tolerance is
 // needed.
 
 using namespace salebra;
@@ -33,7 +33,7 @@ StudyConfiguration study_of(const std::string& seeds) {
   return parse_study_configuration(study_text(seeds, 5), "small.toml");
 }
 
-/// Every bit of the realisations, and what is said of them.
+/// Every bit of the realisations, the warnings and pressures, and how the run ended.
 std::string bits_of(const std::vector<StudyResult>& results) {
   std::string bits;
   for (const StudyResult& result : results) {
@@ -46,7 +46,7 @@ std::string bits_of(const std::vector<StudyResult>& results) {
   return bits;
 }
 
-/// The run of each process in so many groups has the result.
+/// Checks that every process, in so many groups, gets the result.
 void compare(const StudyConfiguration& study, const std::string& alone, int ranks, int groups) {
   INFO(ranks << " processes in " << groups << " groups");
   std::atomic<int> same = 0;
@@ -88,7 +88,7 @@ TEST_CASE("A study over processes has the bits of one process", "[study][share]"
   }
   SECTION("with processes that have no rows") {
     StudyConfiguration study = study_of("seeds = [1]");
-    // On this grid a contact without a start begins on a coarser one.
+    // On this grid a contact without an initial guess begins on a coarser grid.
     auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
     surfaces.grid = {128, 128, 4e-6, 4e-6};
     study.pressures = {3e-3, 0.01, 0.03, 0.1};
@@ -157,7 +157,7 @@ TEST_CASE("What of a study needs surfaces whole is refused before any work", "[s
     };
     run_ranks(3, [&](const Communicator& all) { run(all, 2); });
     CHECK(refused == 3);
-    // A group of one process has its surfaces whole.
+    // A group of a single process holds its surfaces whole.
     run_ranks(2, [&](const Communicator& all) { run(all, 2); });
     CHECK(refused == 3);
   }
@@ -169,8 +169,8 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
   const fs::path folder = scratch.folder / "run.h5.parts";
   const StudyConfiguration study = study_of("seeds = [1, 2, 3, 4]");
   const std::string whole = bits_of(run_ensembles(study));
-  // The first process alone keeps files. The last one says stop within the sweep after two
-  // surfaces; another group finishes its third.
+  // Only the first process keeps files. The last process asks to stop within the sweep after two
+  // surfaces, while another group finishes its third.
   const auto run = [&](int ranks, int groups, bool resume, bool stop) {
     std::atomic<int> interrupted = 0, same = 0, computed = 0;
     run_ranks(ranks, [&](const Communicator& all) {
@@ -207,7 +207,7 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
 
 namespace {
 
-/// A process that fails by itself at its call number `last`, as where memory is short, and must not
+/// A process that fails by itself at its call number `last`, as for lack of memory, and must not
 /// call the others after that.
 class Failing : public detail::Transport {
  public:
@@ -266,8 +266,8 @@ TEST_CASE("A process that fails alone leaves a study at once", "[study][share]")
           }
         });
       } catch (const std::exception&) {
-        // The others wait for one that has ended, which the tests' transport notices, and
-        // salebra-mpi too.
+        // The others wait for a process that has ended; the transport of the tests notices that,
+        // and so does salebra-mpi.
       }
       CHECK(failed == 1);
       CHECK(late == 0);

@@ -20,10 +20,10 @@
 
 using namespace salebra;
 
-// A number of the rows of one process where that of the surface is meant is the likeliest mistake
-// of all. What takes surfaces that are spread over processes is compared with one process elsewhere
+// The most likely mistake is to take the number of rows of one process for that of the surface.
+// Functions that accept surfaces spread over processes are compared with one process elsewhere
 // (spread_contact_test.cpp, spread_statistics_test.cpp and spread_study_test.cpp in tests,
-// generators/tests); everything else that takes a surface must refuse them.
+// generators/tests); all other functions that take a surface must refuse them.
 TEST_CASE("What needs a surface whole refuses one that is spread over processes") {
   salebra::testing::run_ranks(2, [](const Communicator& all) {
     Surface surface{{32, 32, 32, 32}, {}, true, "test", all};

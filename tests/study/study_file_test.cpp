@@ -15,7 +15,7 @@ using namespace salebra;
 
 namespace {
 
-/// Two surfaces through every model; one contact of a model is said not to have converged.
+/// Two surfaces through every model; one contact of one model is marked as not converged.
 StudyResult compared_study() {
   StudyConfiguration configuration = small_study();
   configuration.stick = false;
@@ -26,14 +26,14 @@ StudyResult compared_study() {
   return result;
 }
 
-/// Bit by bit; two unknown values are the same.
+/// Compares bit by bit; two unknown values are the same.
 bool same(const std::vector<double>& found, const std::vector<double>& expected) {
   return std::ranges::equal(found, expected, [](double a, double b) {
     return a == b || (std::isnan(a) && std::isnan(b));
   });
 }
 
-/// What the file holds, against what the study knows: name of a dataset, its axes, its values.
+/// Compares the file with the study: name of a dataset, its axes, its values.
 class FileCheck {
  public:
   FileCheck(const ResultReader& reader, const StudyResult& result)
@@ -73,7 +73,7 @@ class FileCheck {
     values(name, {"model", "realisation", "pressure"}, expected);
   }
 
-  /// name_mean, name_low and name_high along the axes, in the order of estimates.
+  /// Checks name_mean, name_low and name_high along the axes, in the order of estimates.
   void interval(const std::string& name, const std::vector<std::string>& axes,
                 const std::vector<EnsembleMean>& estimates) const {
     std::vector<double> mean, low, high;
@@ -199,7 +199,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.values("local/mean_gap", {"model", "realisation", "midpoint"}, gaps);
   file.values("local/local_decay_length", {"model", "realisation", "midpoint"}, local_lengths);
 
-  // Two surfaces make one mean, that of both.
+  // Two surfaces give one mean, that of both.
   CHECK(reader.numbers("convergence/surfaces") == std::vector<double>{2});
   file.interval("convergence/decay_length_over_rms_height", {"surfaces"},
                 {result.decay_length_over_rms_height()});
@@ -266,7 +266,7 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
     for (const SpotStatistics& load : r.spots)
       sizes.insert(sizes.end(), load.spots_by_size.begin(), load.spots_by_size.end());
   file.values("spots/spots_by_size", {"realisation", "pressure", "min_cells"}, sizes);
-  // 64² cells = 2^12: spots of 1, 2, 4 … 4096 cells at the least.
+  // 64² cells = 2^12: patches of at least 1, 2, 4 … 4096 cells.
   CHECK(reader.numbers("spots/min_cells").size() == 13);
   CHECK(reader.numbers("spots/min_cells").back() == 4096);
   file.of_surfaces("surface/corrected_area_slope",
@@ -293,7 +293,7 @@ TEST_CASE("The overview of a parameter grid holds each point's parameters and me
   configuration.stick = false;
   auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   surfaces.seeds = {4, 5};
-  surfaces.grid.ny = 32;  // a strip: x and y differ
+  surfaces.grid.ny = 32;  // a strip, in which x and y differ
   surfaces.grid.ly = 2e-6;
   configuration.ensemble.hurst = {0.5, 0.8};
   configuration.ensemble.size_x = {2e-6, 4e-6};

@@ -64,7 +64,7 @@ TEST_CASE(
                  (drag.drag_velocity * drag.drag_velocity))
               .epsilon(1e-12));
     CHECK(point.force == Approx(point.pressure * 16e-12).epsilon(1e-12));
-    // l varies by tens of per cent along the curve; F'' with its square.
+    // l varies by tens of per cent along the curve, and F'' with its square.
     CHECK(std::abs(point.deviation()) < 0.8);
   }
   CHECK(result.realisations[0].of(ContactModel::bem).fit.decay_length !=
@@ -75,7 +75,7 @@ TEST_CASE(
 TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[study]") {
   StudyResult result = run_study(small_study());
   REQUIRE(result.realisations.size() == 3);
-  // If surfaces scatter, the mean of the ratios, 1.75, is another number.
+  // For surfaces that scatter, the mean of the ratios, 1.75, is a different number.
   const std::array law{3.0, 2.0, 5.0}, computed{1.0, 2.0, 4.0};
   for (std::size_t i = 0; i < 3; ++i) {
     DampingPoint& point = result.realisations[i].of(ContactModel::bem).damping[5];
@@ -87,7 +87,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   const double ratio = 10.0 / 7;
   CHECK(deviation[5].mean == Approx(ratio - 1).epsilon(1e-14));
   CHECK(result.damping("deviation")[5].mean == deviation[5].mean);
-  // Variance of a ratio of means to first order, by the variances and the covariance of the two.
+  // Variance of a ratio of means to first order, from both variances and the covariance.
   const double s_law = 14.0 / 6, s_computed = 14.0 / 6, covariance = 11.0 / 6;
   const double variance =
       (s_law + ratio * ratio * s_computed - 2 * ratio * covariance) / 3 / (7.0 / 3) / (7.0 / 3);
@@ -117,8 +117,9 @@ TEST_CASE("Eight surfaces say how many an interval needs", "[study]") {
   for (std::size_t k = 0; k < reached.size(); ++k)
     if (!std::isnan(reached[k].low))
       counts.push_back(surfaces_for(few, reached[k].relative_precision())[k]);
-  // By the variance of eight, which is known to √(2/7) where they are normal; the loads have it in
-  // common. Two of these deviations, and 1.18² of t for few surfaces.
+  // The number follows from the variance of eight surfaces, which is known to √(2/7) for normal
+  // values; all loads share this error. The limits are two of these deviations, and 1.18² from t
+  // for few surfaces.
   REQUIRE(counts.size() >= 4);
   std::ranges::sort(counts);
   const double median = counts[counts.size() / 2];
@@ -186,7 +187,7 @@ TEST_CASE("A study without a surface is refused", "[study]") {
 
 TEST_CASE("A window of the fit that holds no pressures is refused before anything is computed",
           "[study]") {
-  // Relative pressures are known only with the surface: here of order 1e6 Pa and more.
+  // Relative pressures are known only with the surface; here they are of order 1e6 Pa and more.
   const StudyConfiguration configuration =
       small_study("[fit]\npressure_window = [\"1Pa\", \"2Pa\"]\n");
   CHECK_THROWS_WITH(run_study(configuration), Catch::Contains("pressure_window: 0 pressures"));
@@ -225,7 +226,7 @@ TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (
     REQUIRE(std::isnan(a) == std::isnan(b));
     if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
   }
-  // The kernels coincide at ν = 0, and both solves stop within 1e-5 of K; otherwise the spots are
+  // At ν = 0 the kernels coincide, and both solves stop within 1e-5 of K. Otherwise the patches are
   // not round.
   if (poisson == 0)
     CHECK(largest < 3e-3);
@@ -267,7 +268,8 @@ TEST_CASE(
     "A table of a power spectrum makes the surfaces of its law, and of several each seed has its "
     "own",
     "[study]") {
-  // Plateau, corner and end of H = 0.8 are straight in ln C over ln q: the table is that law.
+  // Plateau, corner and end of the spectrum with H = 0.8 are straight lines in ln C over ln q, so
+  // the table is the same law.
   const StudyConfiguration law = small_study();
   const auto& recipe = std::get<GeneratedSurfaces>(law.surfaces);
   const SelfAffineSpectrum spectrum(recipe.spectrum);
@@ -297,8 +299,8 @@ TEST_CASE(
   CHECK((of_law - of_table).abs().maxCoeff() < 1e-9 * of_law.abs().maxCoeff());
   CHECK(study_loads(tabulated).contact_scale ==
         Approx(study_loads(law).contact_scale).epsilon(1e-9));
-  // Heights go as the root of the density: of the table of all and two others, seeds 4 and 5
-  // have the second, 2 and 3 the third.
+  // Heights are proportional to the root of the density. Of the table of all and two others, seeds
+  // 4 and 5 use the second, 2 and 3 the third.
   auto& tables = std::get<GeneratedSurfaces>(tabulated.surfaces).tables;
   for (const double factor : {4, 9}) {
     tables.push_back(table);
@@ -311,7 +313,7 @@ TEST_CASE(
   CHECK(study_loads(tabulated).contact_scale ==
         Approx(study_loads(law).contact_scale).epsilon(1e-9));
   CHECK_THROWS_WITH(parse_study_configuration(surface + contact_text(), "x.toml", folder),
-                    Catch::Contains(name));  // it is gone
+                    Catch::Contains(name));  // the file is gone
 }
 
 TEST_CASE("Conductances of a study are its stiffness times a constant, and so are their intervals",
@@ -333,7 +335,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
       CHECK(answer.electrical_conductance[k].*part == Approx(electrical * stiffness[k].*part));
     }
   }
-  // What the bodies conduct changes nothing of the surfaces, but the result.
+  // The conductivities of the bodies do not change the surfaces, but they change the result.
   StudyConfiguration other = configuration;
   other.conduction = {};
   CHECK(StudyParts::keys(other) == StudyParts::keys(configuration));
@@ -366,7 +368,7 @@ TEST_CASE("A study has the flow through the gap of each contact where it is aske
     if (flow.percolates_x)
       CHECK(first.flow[k].pressure_flow_factor_x == Approx(flow.pressure_flow_factor_x));
   }
-  // Light contact lets pass the flow on all surfaces, less and less of it.
+  // A light contact lets flow pass on all surfaces, a heavier one less.
   const auto factors = result.flow(&FlowFactors::pressure_flow_factor_x);
   const auto part = result.flow([](const FlowFactors& one) { return one.percolates_x; });
   CHECK(part[0].mean == 1);
@@ -387,7 +389,7 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   const Realisation& first = result.realisations.front();
   const Surface surface = study_surface(configuration, first.seed);
   const double modulus = configuration.material.contact_modulus;
-  // The least load begins without a state before, as press_adhesive() does.
+  // The smallest load begins without a previous state, as in press_adhesive().
   const ForceCurve& curve = first.of(ContactModel::bem).curve;
   const AdhesiveContactState light =
       press_adhesive(surface, modulus, at_pressure(result.pressures[0]), plan.adhesion);
@@ -405,7 +407,7 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   CHECK(first.adhesion.adhesion_work_per_cycle == cycle.adhesion_work_per_cycle);
   CHECK(first.adhesion.samples[3].unloading_pressure ==
         cycle.unloading[gaps.size() - 4].mean_pressure);
-  // Means have intervals; the pull-off is that of the models that adhere alone.
+  // Means have intervals; the pull-off is that of the adhesive models only.
   const EnsembleMean pull = result.adhesion_cycle(&AdhesiveCycleNumbers::pull_off_pressure);
   CHECK(pull.low < pull.mean);
   CHECK(pull.mean < pull.high);
@@ -413,13 +415,13 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   CHECK(result.fitted("pull_off_pressure", ContactModel::gw_jkr).mean > 0);
   CHECK(std::isnan(result.fitted("pull_off_pressure", ContactModel::gw_moments).mean));
   CHECK(result.adhesion(&AdhesionSample::unloading_pressure).size() == plan.cycle.size());
-  // No loss is known.
+  // The loss is unknown.
   for (const DampingPoint& point : first.of(ContactModel::bem).damping)
     CHECK(std::isnan(point.damping_constant_closed_form));
   for (const std::string more :
        {"[damping]\nnormal_amplitude = 1e-9\ndrag_velocity = 1e-6\nfrequency = 1\n"})
     CHECK_THROWS_WITH(parse_study_configuration(adhesive_study_text() + more, "x.toml"),
-                      Catch::Contains("damping: is not known with adhesion"));
+                      Catch::Contains("damping: cannot be combined with adhesion"));
   StudyConfiguration hard = configuration;
   hard.known.hardness = 1e9;
   CHECK_THROWS_WITH(run_study(hard), Catch::Contains("hardness"));

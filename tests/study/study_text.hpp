@@ -3,8 +3,8 @@
 
 #include <string>
 
-/// [material], [contact] and [damping] of a small study; loads: how many from light contact to a
-/// fifth of E*h'.
+/// [material], [contact] and [damping] of a small study; loads: their number, from light contact to
+/// a fifth of E*h'.
 inline std::string contact_text(int loads = 10) {
   return R"([material]
 contact_modulus = "10GPa"
@@ -20,8 +20,8 @@ frequency = "20kHz"
 )";
 }
 
-/// A study of surfaces of 64 × 64 cells, eight to the shortest wave and four roll-offs a side: some
-/// 20 ms each at a dozen loads.
+/// A study of surfaces of 64 × 64 cells, with eight cells to the shortest wave and four roll-offs
+/// per side; a surface takes some 20 ms at a dozen loads.
 inline std::string study_text(const std::string& seeds = "seeds = [1, 2, 3]", int loads = 10) {
   return R"([surface]
 points = 64
@@ -34,7 +34,7 @@ rms_height = "10nm"
          "\n" + contact_text(loads);
 }
 
-/// The study of a soft body that adheres, with a cycle.
+/// A study of a soft adhesive body, with a cycle.
 inline std::string adhesive_study_text() {
   std::string text = study_text("seeds = [1, 2, 3]", 5);
   text.resize(text.find("[damping]"));
@@ -45,7 +45,7 @@ cycle = "400nm:5nm:14"
 )";
 }
 
-/// The study at loads so high that no mean gap exceeds the rms height: there is nothing to fit a
+/// The study at loads so high that no mean gap exceeds the rms height, so there is nothing to fit a
 /// decay length to.
 inline std::string close_study_text() {
   std::string text = study_text("seeds = [1, 2]", 5);

@@ -26,19 +26,19 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
 
   double square = 0;
   for (const float height : picture.heights) square += double(height) * double(height);
-  // Single precision keeps seven digits of a height.
+  // Single precision holds seven digits of a height.
   CHECK(std::sqrt(square / (64 * 64)) == Approx(first.heights.rms_height).epsilon(1e-6));
 
   for (std::size_t k = 0; k < result.pressures.size(); ++k) {
     const auto touching = std::ranges::count_if(
         picture.first_load, [&](int load) { return load >= 0 && load <= int(k); });
-    // Contacts of growing load are nested; on a grid single cells at a rim may leave again.
+    // Contacts at growing load are nested, except for single cells at the rim that may leave again.
     CHECK(
         double(touching) / (64 * 64) ==
         Approx(first.of(ContactModel::bem).curve.samples[k].contact_area_fraction).epsilon(0.005));
   }
-  // The maps of one load, of every cell: their means are those of the contact, to the seven digits
-  // of floats.
+  // The maps of one load have every cell, so their means are those of the contact, to the seven
+  // digits of floats.
   const ForceSample& mapped =
       first.of(ContactModel::bem).curve.samples[std::size_t(picture.mapped_load)];
   REQUIRE(picture.mapped_load == Index(result.pressures.size() / 2));
@@ -47,7 +47,7 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
   for (std::size_t i = 0; i < picture.gap.size(); ++i) {
     pressure += double(picture.contact_pressure[i]) / (64 * 64);
     gap += double(picture.gap[i]) / (64 * 64);
-    // Where it touches the solver leaves what its tolerance allows.
+    // In contact the solver leaves a gap within its tolerance.
     CHECK((picture.contact_pressure[i] == 0 || picture.gap[i] < 1e-4 * mapped.mean_gap));
   }
   CHECK(pressure == Approx(mapped.pressure).epsilon(1e-5));
@@ -62,8 +62,8 @@ TEST_CASE("The law drawn with a random-phase surface is its spectrum", "[picture
   int compared = 0;
   for (std::size_t i = 0; i < picture.wavenumber.size(); ++i) {
     if (std::isnan(picture.law_psd[i]) || picture.psd[i] == 0) continue;
-    // The mean of q^-3.6 over a ring of an eighth of an octave is not that of the mean q: 1 %. A
-    // ring across a limit of the law holds modes beyond it.
+    // The mean of q^-3.6 over a ring of an eighth of an octave differs from the value at the mean q
+    // by 1 %. A ring across a limit of the law has modes beyond it.
     const double wavelength = 2 * std::numbers::pi / picture.wavenumber[i];
     if (wavelength < 1.1 * 0.5e-6 || std::abs(wavelength / 1e-6 - 1) < 0.1) continue;
     CHECK(picture.psd[i] == Approx(picture.law_psd[i]).epsilon(0.02));

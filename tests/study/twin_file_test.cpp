@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the file of a surface twin, of the list of its scans, and of what a study makes of it.
+// Tests of the file of a surface twin, of the list of its scans, and of its use in a study.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -22,7 +22,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// A folder of its own, removed at the end.
+/// A separate folder, removed at the end.
 struct Folder {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("salebra-twin-" + std::to_string(getpid()));
@@ -60,10 +60,12 @@ TEST_CASE("A list of scans names each mistake with its line", "[twin]") {
   refused("[[measurement]]\ninstrument = \"afm\"\n", "measurement.file: is missing");
   refused(one, "measurement.instrument: is missing; give optical, stylus or afm");
   refused(one + "instrument = \"optic\"\n", "t.toml:3: measurement.instrument");
-  refused(one + "instrument = \"optical\"\n", "measurement.resolution: is of an optical");
+  refused(one + "instrument = \"optical\"\n",
+          "measurement.resolution: must be given for an optical");
   refused(one + "instrument = \"afm\"\ntip_radius = \"1nm\"\nresolution = \"1um\"\n",
-          "t.toml:5: measurement.resolution: is of an optical");
-  refused(one + "instrument = \"stylus\"\n", "measurement.tip_radius: is of a stylus or afm");
+          "t.toml:5: measurement.resolution: must be given for an optical");
+  refused(one + "instrument = \"stylus\"\n",
+          "measurement.tip_radius: must be given for a stylus or afm");
   refused(one + "instrument = \"ideal\"\ntip = \"1nm\"\n", "t.toml:4: measurement.tip");
   const auto two = read_twin_measurements(folder.with(
       "t.toml", one + "instrument = \"optical\"\nresolution = \"1.5um\"\nsize_x = \"200um\"\n" +
@@ -100,7 +102,7 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
         "[[measurement]]\nfile = \"" + name + "\"\ninstrument = \"ideal\"\ndetrend = \"none\"\n";
     scans.push_back(scan_spectrum(scan.heights, scan.grid, {}, 1, name));
   }
-  // For periodic surfaces, which have no longer waves, the choice of a form would take a table.
+  // For periodic surfaces, which have no longer waves, the automatic choice would be a table.
   const TwinOptions options{.form = SpectrumForm::corner};
   const SurfaceTwin twin = twin_of(read_twin_measurements(folder.with("t.toml", list)), options);
   const SurfaceTwin direct = fit_twin(scans, options);
@@ -113,7 +115,7 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
     for (const double q : {2e5, 1e6, 5e6, 2e7})
       CHECK(draws[i].density(q) == Approx(twin.draws[i].density(q)).epsilon(1e-14));
   CHECK_THROWS_WITH(read_twin_draws(folder.path / "scan1.h5"),
-                    Catch::Contains("scan1.h5: is no surface twin"));
+                    Catch::Contains("scan1.h5: is not a surface twin"));
 }
 
 TEST_CASE("A study counts loads by the draw of median slope, on waves that its grid carries",
@@ -127,7 +129,7 @@ TEST_CASE("A study counts loads by the draw of median slope, on waves that its g
   CHECK(tables[0].psd == tables[3].psd);
   CHECK(tables[1].wavenumber.back() == Approx(2 * pi / 4e-7));
   CHECK(tables[1].wavenumber.front() == Approx(pi / 1e-5));
-  // The cells are 156 nm: of the second law what is shorter than two of them is left out.
+  // The cells are 156 nm, so the second law is cut off at two cells.
   CHECK(tables[2].wavenumber.back() == Approx(pi / grid.dx()));
 }
 
@@ -145,7 +147,7 @@ TEST_CASE("A prediction interval holds the next value", "[twin]") {
     const EnsembleMean interval = prediction(values);
     held += next > interval.low && next < interval.high;
   }
-  // 95 % exactly for log-normal values; four standard deviations of 4000 trials are 1.4 %.
+  // Exactly 95 % for log-normal values; four standard deviations of 4000 trials are 1.4 %.
   CHECK(held > 0.936 * trials);
   CHECK(held < 0.964 * trials);
   CHECK(std::isnan(prediction({3}).low));
@@ -173,13 +175,14 @@ TEST_CASE("A study tells what the scans leave open from what differs from place 
   const StudyResult alike = run_study(study);
   surfaces.tables = {table(1), table(0.5), table(1), table(2), table(4)};
   const StudyResult open = run_study(study);
-  // Four pairs of one law: the expected share is 0, with a wide scatter. Laws that differ by 8 in
-  // height: most of it, though few spots carry such small surfaces.
+  // Four pairs from one law: the expected share is 0, with a wide scatter. From laws that differ by
+  // 8 in height: most of the scatter, although few patches carry such small surfaces.
   CHECK(alike.scan_share() < 0.6);
   CHECK(open.scan_share() > 0.75);
   CHECK(std::isnan(run_study(small_study()).scan_share()));
   const auto flagged = [](const StudyResult& result) {
-    return std::ranges::any_of(result.ensemble_warnings, [](const auto& flag) { return flag.name == "twin"; });
+    return std::ranges::any_of(result.ensemble_warnings,
+                               [](const auto& flag) { return flag.name == "twin"; });
   };
   CHECK(flagged(open));
   const EnsembleMean length = open.decay_length();

@@ -24,7 +24,7 @@ using std::numbers::pi;
 
 TEST_CASE("A wedge has the developed area of its flank, 1/cos θ, and its slope", "[areal]") {
   const double angle = 0.6;
-  // The edge lies on a row of points, so that every triangle lies in a flank.
+  // The edge lies on a row of points, which puts every triangle on one flank.
   const Surface wedge = sampled({33, 20, 33.0, 40.0}, false, [&](double x, double) {
     return -std::abs(x - 16) * std::tan(angle);
   });
@@ -40,22 +40,23 @@ TEST_CASE("A sinusoid has the heights of its formula", "[areal]") {
   });
   const ArealParameters p = areal_parameters(wave);
   CHECK(p.Sq == Approx(amplitude / std::sqrt(2)).epsilon(1e-10));
-  // Mean of |sin| over 60 points of a wave, (2/60) cot(π/60): 2/π less π²/(3·60²).
+  // The mean of |sin| over 60 points of a wave is (2/60) cot(π/60), i.e. 2/π less π²/(3·60²).
   CHECK(p.Sa == Approx(amplitude * 2 / 60 / std::tan(pi / 60)).epsilon(1e-10));
   CHECK(p.Ssk == Approx(0).margin(1e-10));
   CHECK(p.Sku == Approx(1.5).epsilon(1e-10));
   CHECK(p.Sp == Approx(amplitude).epsilon(1e-10));
   CHECK(p.Sv == Approx(amplitude).epsilon(1e-10));
   CHECK(p.Sz == Approx(2 * amplitude).epsilon(1e-10));
-  // cos(qx) = 0.2 along x; bilinear between 60 points of a wave.
+  // The correlation along x is cos(qx), which falls to 0.2; it is bilinear between 60 points of a
+  // wave.
   CHECK(p.Sal == Approx(std::acos(0.2) / (2 * pi * 4 / 1e-3)).epsilon(1e-3));
-  // It never falls along y.
+  // The correlation never falls along y.
   CHECK(std::isnan(p.Str));
   CHECK(p.Std == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("Correlation lengths do not mind the shape of the cells", "[areal]") {
-  // Steps of half a cell of the shorter side would be 10¹¹ along the longer one.
+  // Steps of half the shorter side of a cell would be 10¹¹ steps along the longer side.
   const Index n = 240;
   Surface surface{{n, 4, 1e-3, 1e6}, Field(n, 4), true, ""};
   for (Index ix = 0; ix < n; ++ix)
@@ -71,13 +72,13 @@ TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and directio
       std::make_shared<FunctionSpectrum>(gaussian_correlation_spectrum(1e-6, length));
   const AnisotropicSpectrum spectrum(isotropic, {.along = 2, .across = 0.8, .angle = angle});
   const ArealParameters p = areal_parameters(random_phase({512, 512, 2, 2}, spectrum, 3));
-  // exp(−r²/ℓ²) = 0.2. Random phase has the correlation of its spectrum exactly; the steps of 0.25
-  // ℓ/5 bend bilinear values by 1 %.
+  // exp(−r²/ℓ²) = 0.2. A random-phase surface has exactly the correlation of its spectrum; steps of
+  // 0.25 ℓ/5 shift bilinear values by 1 %.
   const double fall = length * std::sqrt(std::log(5.0));
   CHECK(p.Sal == Approx(0.8 * fall).epsilon(0.02));
   CHECK(p.Str == Approx(0.8 / 2).epsilon(0.02));
-  // Power lies across the lay. Fixed amplitudes: nothing but the lattice of modes moves the
-  // greatest value.
+  // The power lies across the lay. With fixed amplitudes, only the lattice of modes shifts the
+  // maximum.
   CHECK(p.Std == Approx(angle + pi / 2).margin(pi / 180));
 }
 
@@ -88,14 +89,16 @@ TEST_CASE("The texture direction of one wave is its own", "[areal]") {
     return std::cos(2 * pi * (i * x / lx + j * y / ly) + 0.3);
   });
   const double exact = j == 0 ? 0 : std::atan2(j / ly, i / lx);
-  // The error is a quarter of a degree between rays, and the steps of half a mode along them.
+  // The error is a quarter of a degree from the spacing of rays, plus the steps of half a mode
+  // along them.
   CHECK(areal_parameters(wave).Std ==
         Approx(exact < 0 ? exact + pi : exact).margin(1.5 * pi / 180));
 }
 
 TEST_CASE("A direction is as strong as the power in its sector, which widens with the wave number",
           "[areal]") {
-  // Twice the wave number along y, 0.64 of the power: 1.28 of what lies in the sector along x.
+  // The wave along y has twice the wave number and 0.64 of the power, hence 1.28 times the power of
+  // the wave along x in a sector.
   const Surface waves = sampled({64, 64, 1.0, 1.0}, true, [](double x, double y) {
     return std::cos(2 * pi * 6 * x) + 0.8 * std::cos(2 * pi * 12 * y);
   });
@@ -103,7 +106,7 @@ TEST_CASE("A direction is as strong as the power in its sector, which widens wit
 }
 
 TEST_CASE("The parameters of heights are those of their statistics and bearing curve", "[areal]") {
-  // Skewed, so that hills and valleys differ.
+  // Skewed heights, which make hills and valleys differ.
   Surface surface = white({30, 20, 1, 1}, false);
   surface.heights = surface.heights.exp();
   const ArealParameters p = areal_parameters(surface);
@@ -122,14 +125,14 @@ TEST_CASE("The parameters of heights are those of their statistics and bearing c
 
 TEST_CASE("Hills in a chain of known saddles are pruned in the order of their prominence",
           "[peaks]") {
-  // Along x: heights of points, a ridge that is the same for all y but for one row that makes each
-  // peak a point.
+  // The heights along x form a ridge in one row; all other rows are lower, so every peak is a
+  // single point.
   const std::vector<double> ridge{0, 5, 3, 4, 1, 9, 8, 8.5, 0, 2, 0};
   Surface surface = sampled({11, 5, 11, 5}, false, [&](double x, double y) {
     return ridge[static_cast<std::size_t>(x + 0.5)] - (std::abs(y - 2) > 0.5 ? 20 : 0);
   });
-  // Prominences: 9 highest of all, 5 over its saddle 1: 4, 2 over 0: 2, 4 over 3: 1, 8.5 over 8:
-  // 0.5.
+  // Prominences: 9, the highest, has no limit; 5 over its saddle 1 has 4; 2 over 0 has 2; 4 over 3
+  // has 1; 8.5 over 8 has 0.5.
   CHECK(significant_peaks(surface, 0).size() == 5);
   CHECK(significant_peaks(surface, 0.5).size() == 5);
   CHECK(significant_peaks(surface, 0.6).size() == 4);
@@ -140,15 +143,15 @@ TEST_CASE("Hills in a chain of known saddles are pruned in the order of their pr
   CHECK(last.front().ix == 5);
   // −½ (−8 − 1 + −40)/1.
   CHECK(last.front().mean_curvature == Approx(0.5 * (8 + 1 + 40)));
-  // Two peaks beside an undefined point are not listed; the 5 still ends at its saddle with one of
-  // them.
+  // Two peaks next to an undefined point are not listed; the peak of height 5 still ends at its
+  // saddle with one of them.
   surface.heights(6, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK(significant_peaks(surface, 0.6).size() == 3);
   CHECK(significant_peaks(surface, 5).empty());
 }
 
 TEST_CASE("Peaks and prominences are those of water that falls point by point", "[peaks]") {
-  // Heights in steps of an eighth: many are equal, and told apart by their place.
+  // Heights are multiples of an eighth: many are equal and are ordered by their index.
   const bool periodic = GENERATE(true, false);
   Surface surface = white({22, 17, 22, 17}, periodic, 5);
   surface.heights = (8 * surface.heights).round() / 8;
@@ -161,7 +164,7 @@ TEST_CASE("Peaks and prominences are those of water that falls point by point", 
     if (!std::isnan(heights[k])) order.push_back(k);
   std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return heights[k]; });
 
-  // By definition: each point ends at the first level at which its hill holds a higher point.
+  // By definition, a peak ends at the first height at which its hill contains a higher point.
   std::vector<std::tuple<Index, Index, double>> expected;
   for (std::size_t summit = 0; summit < order.size(); ++summit) {
     double prominence = std::numeric_limits<double>::infinity();
@@ -185,7 +188,7 @@ TEST_CASE("Peaks and prominences are those of water that falls point by point", 
           }
       if (!ended) continue;
       prominence = heights[order[summit]] - heights[order[level]];
-      if (level == summit) prominence = -1;  // no peak: a higher point is beside it
+      if (level == summit) prominence = -1;  // no peak: a neighbour is higher
       break;
     }
     const Index ix = order[summit] / ny, iy = order[summit] % ny;
@@ -218,7 +221,7 @@ TEST_CASE("An egg box has one peak to a hill, with the curvature of a cosine", "
   });
   const ArealParameters p = areal_parameters(box);
   CHECK(p.Spd == Approx(2 * 3 * 5 / (l * l)));
-  // Second differences of a cosine: 2(1 − cos qΔ)/Δ².
+  // The second difference of a cosine is 2(1 − cos qΔ)/Δ².
   const double step = l / 120;
   const auto second = [&](int waves) {
     return 2 * (1 - std::cos(2 * pi * waves * step / l)) / (step * step);

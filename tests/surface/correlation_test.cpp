@@ -32,7 +32,7 @@ TEST_CASE("The autocorrelation of a sinusoid is half its squared amplitude times
       error = std::max(error, std::abs(map.structure(i, j) / variance - 2 * (1 - cosine)));
     }
   }
-  // The mean of 7 m leaves 1e-15 of itself in heights of 3e-6 m.
+  // The mean of 7 m leaves a rounding error of 1e-15 of itself in heights of 3e-6 m.
   CHECK(error < 1e-8);
   CHECK((map.pairs == static_cast<double>(nx * ny)).all());
 }
@@ -70,7 +70,7 @@ TEST_CASE("Sums over pairs are those of the definition, with undefined points an
       error = std::max(error, std::abs(map.structure(row, column) - difference / pairs));
     }
   }
-  // Heights of order 1; the sums run over 127 points.
+  // Heights are of order 1; the sums run over 127 points.
   CHECK(error < 1e-13);
 }
 
@@ -80,14 +80,14 @@ TEST_CASE("The structure function of a periodic surface is twice what its correl
       {.hurst = 0.7, .rolloff = 0.3, .short_cutoff = 4.0 / 128, .rms_height = 1e-6});
   Surface surface = random_phase({128, 96, 1, 0.75}, spectrum, 5);
   const CorrelationMap circular = correlation_map(surface);
-  // Four cells of it that are not periodic: the route over pairs, which gives S without A.
+  // Four copies as a non-periodic surface take the route over pairs, which computes S without A.
   const double variance = std::pow(height_statistics(surface).rms_height, 2);
   CHECK(circular.autocorrelation(circular.origin(), 0) == Approx(variance).epsilon(1e-13));
   Surface tiled{{256, 192, 2, 1.5}, Field(256, 192), false, "four cells"};
   tiled.heights << surface.heights, surface.heights, surface.heights, surface.heights;
   const CorrelationMap open = correlation_map(tiled);
   const Correlation along = profile_correlation(open, Axis::x);
-  // Half of a row of four cells is one period, where the structure function is 0 again.
+  // Half the length of a row of two periods is one period, where the structure function is 0 again.
   CHECK(along.structure[128] < 1e-12 * variance);
   CHECK(along.structure.size() == 129);
   const Correlation rings = radial_correlation(circular);
@@ -102,7 +102,7 @@ TEST_CASE("The structure function of a periodic surface is twice what its correl
 }
 
 TEST_CASE("Rings weigh each distance with its pairs", "[correlation]") {
-  // On a surface that is not periodic a distance along x has fewer pairs than the same across.
+  // On a non-periodic surface, a distance along x has fewer pairs than the same distance along y.
   Surface surface = white({24, 60, 1.0, 2.5}, false);
   surface.heights(3, 3) = std::numeric_limits<double>::quiet_NaN();
   const CorrelationMap map = correlation_map(surface);
@@ -124,7 +124,7 @@ TEST_CASE("Rings weigh each distance with its pairs", "[correlation]") {
       product -= map.pairs(row, column) * map.autocorrelation(row, column);
     }
   }
-  // What is left of sums of 1e5 to 1e6.
+  // Only rounding errors of sums of 1e5 to 1e6 remain.
   CHECK(pairs == 0);
   CHECK(std::abs(distance) < 1e-8);
   CHECK(std::abs(structure) < 1e-8);
@@ -134,7 +134,7 @@ TEST_CASE("Rings weigh each distance with its pairs", "[correlation]") {
 TEST_CASE("The structure function of a self-affine surface grows with twice the Hurst exponent",
           "[correlation]") {
   const double hurst = GENERATE(0.3, 0.7);
-  // No roll-off within the cell, and short waves down to two cells.
+  // The roll-off is not within the cell, and the shortest waves span two cells.
   const SelfAffineSpectrum spectrum(
       {.hurst = hurst, .rolloff = 1, .short_cutoff = 2.0 / 1024, .rms_height = 1});
   const Correlation rings =
@@ -147,8 +147,8 @@ TEST_CASE("The structure function of a self-affine surface grows with twice the 
   const std::size_t low = at(8.0 / 1024), high = at(32.0 / 1024);
   const double slope = std::log(rings.structure[high] / rings.structure[low]) /
                        std::log(rings.distance[high] / rings.distance[low]);
-  // S ∝ r^{2H} far from both cut-offs; at a hundredth of the cell these bend it by (r/L)^{2−2H} and
-  // (a/r)^{2H}, 0.1 at worst.
+  // S ∝ r^{2H} far from both cut-offs. At a hundredth of the cell they change the exponent by
+  // (r/L)^{2−2H} and (a/r)^{2H}, at most 0.1.
   CHECK(slope == Approx(2 * hurst).margin(0.1));
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("Slope and curvature at a distance are those of a sinusoid seen throug
           Approx(amplitude * std::sqrt(2) * std::abs(half) / s).epsilon(1e-12));
     CHECK(along.profile_curvature[k] ==
           Approx(4 * half * half / (s * s) * amplitude / std::sqrt(2)).epsilon(1e-12));
-    // The crest lies on a point: 200 points hold 100 to the wave.
+    // With 100 points per wave, the crest lies on a point.
     CHECK(along.min_curvature[k] == Approx(-4 * half * half / (s * s) * amplitude).epsilon(1e-12));
     CHECK(along.stencils[k] == 1000);
   }
@@ -184,7 +184,7 @@ TEST_CASE("The scale-dependent slope is the root of the structure function over 
   const double step = profile.distance[1];
   for (std::size_t k = 0; k < scales.spacing.size(); ++k) {
     const auto lag = static_cast<std::size_t>(std::lround(scales.spacing[k] / step));
-    // One side goes by transforms, the other by differences.
+    // The left-hand side comes from differences, the right-hand side from transforms.
     CHECK(scales.profile_slope[k] ==
           Approx(std::sqrt(profile.structure[lag]) / scales.spacing[k]).epsilon(1e-12));
   }
@@ -198,14 +198,14 @@ TEST_CASE("Below the wavelength at which peaks are as sharp as the tip, a scan i
   const auto sharpness = [&](double s) {
     return amplitude * std::pow(2 * std::sin(q * s / 2) / s, 2);
   };
-  // Where a quarter of the steps of a wave is left: 12 steps.
+  // Choose the tip whose limit is reached at a spacing of 12 steps; a wave has 64.
   const double s = 12.0 / 256, radius = 0.5 / sharpness(s);
   const ReliabilityLimit limit = short_wavelength_limit(wave, {.tip_radius = radius});
   CHECK(limit.pixel == Approx(2.0 / 256));
-  // The longer side of oblong cells counts.
+  // For oblong cells the longer side is relevant.
   const Surface oblong = sampled({64, 256, 1, 1}, false, [](double, double) { return 0.0; });
   CHECK(short_wavelength_limit(oblong, {}).pixel == Approx(2.0 / 64));
-  // Linear between 11, 12 and 13 steps: 12 itself is hit.
+  // The limit is interpolated linearly, but 12 steps are a node.
   CHECK(limit.tip.value() == Approx(2 * s).epsilon(1e-9));
   CHECK(limit.wavelength() == limit.tip.value());
   CHECK(short_wavelength_limit(wave, {.tip_radius = 0.4 / sharpness(1.0 / 256)}).tip.value() == 0);
@@ -221,9 +221,9 @@ TEST_CASE("A parabola that is not periodic has one curvature, at its edges and b
   const ScaleDependence along = scale_dependence(bowl, Axis::x);
   for (std::size_t k = 0; k < along.spacing.size(); ++k) {
     CHECK(along.profile_curvature[k] == Approx(1).epsilon(1e-10));
-    // Three stencils of a row touch the hole.
+    // Three stencils of a row contain the hole.
     CHECK(along.stencils[k] == (41 - 2 * std::lround(along.spacing[k])) * 30 - 3);
   }
-  // Cells of 1 by 2.
+  // The cells are 1 by 2.
   CHECK(short_wavelength_limit(bowl, {}).pixel == 4);
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-/// All rectangles, one by one.
+/// Tries all rectangles.
 Index max_points_by_search(const Surface& surface) {
   const Grid2D& grid = surface.grid;
   Index most = 0;
@@ -32,7 +32,7 @@ Index max_points_by_search(const Surface& surface) {
 TEST_CASE("A part keeps its points, their distances and nothing else", "[crop]") {
   const Surface whole =
       sampled({40, 30, 4.0, 6.0}, true, [](double x, double y) { return x + 10 * y; });
-  // Sides are moved to the nearest border of a cell.
+  // Sides move to the nearest border of a cell.
   const Surface part = cropped(whole, {0.52, 1.19, 2.48, 4.01});
   CHECK(part.grid == Grid2D{20, 14, 20 * whole.grid.dx(), 14 * whole.grid.dy()});
   CHECK_FALSE(part.periodic);
@@ -73,7 +73,7 @@ TEST_CASE("Holes have a share of the points and the width of their largest squar
   Surface surface = white({100, 80, 1.0, 1.6}, false);
   CHECK(holes_of(surface).points == 0);
   CHECK(holes_of(surface).few());
-  surface.heights.row(17).setConstant(undefined);  // a line that was lost is thin
+  surface.heights.row(17).setConstant(undefined);  // a lost line is thin
   const Holes line = holes_of(surface);
   CHECK(line.points == 80);
   CHECK(line.fraction == Approx(0.01));
@@ -88,5 +88,5 @@ TEST_CASE("Holes have a share of the points and the width of their largest squar
   for (Index k = 0; k < 400; ++k) dots.heights((7 * k) % 100, (k / 100) * 20 + k % 7) = undefined;
   CHECK(holes_of(dots).few());
   dots.heights(50, 79) = undefined;
-  CHECK_FALSE(holes_of(dots).few());  // one more than a twentieth
+  CHECK_FALSE(holes_of(dots).few());  // one more than a twentieth of the points
 }

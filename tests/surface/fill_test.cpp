@@ -19,7 +19,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 TEST_CASE("Holes in a harmonic surface are filled with the surface itself", "[fill]") {
-  // x² − y², xy, x and y satisfy the five-point equation exactly, on rectangular cells too.
+  // x² − y², xy, x and y satisfy the five-point equation exactly, even on rectangular cells.
   const Surface whole = sampled({24, 30, 2.0, 3.0}, false, [](double x, double y) {
     return 3 + x - 2 * y + x * y + x * x - y * y;
   });
@@ -28,7 +28,7 @@ TEST_CASE("Holes in a harmonic surface are filled with the surface itself", "[fi
   holed.heights(20, 25) = undefined;
   const Surface result = filled(holed);
   CHECK(result.undefined_points() == 0);
-  // Heights up to 10 m.
+  // Round-off of heights up to 10 m.
   CHECK((result.heights - whole.heights).abs().maxCoeff() < 1e-13);
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("Filled heights stay between those around them, across a periodic edge
   surface.heights.row(1).setConstant(2);
   surface.heights.row(14).setConstant(5);
   const Surface result = filled(surface);
-  // Two rows between 5 m and 2 m over the edge: a straight line.
+  // The filled rows form a straight line between 5 m and 2 m across the edge.
   CHECK((result.heights.row(15) - 4).abs().maxCoeff() < 1e-14);
   CHECK((result.heights.row(0) - 3).abs().maxCoeff() < 1e-14);
   surface.periodic = false;
@@ -63,9 +63,10 @@ TEST_CASE("A bowed and tilted surface is flat once its paraboloid is subtracted"
   bowed.heights(3, 7) = undefined;
   const Surface flat = detrended(bowed, Detrend::quadratic);
   CHECK(flat.undefined_points() == 1);
-  // Heights are of order 3 mm: 1e-15 of that, times the condition of six normal equations.
+  // Heights of order 3 mm have errors of 1e-15 of that, times the condition of six normal
+  // equations.
   CHECK(flat.heights.isNaN().select(0.0, flat.heights).abs().maxCoeff() < 1e-16);
-  // A plane does not do.
+  // A plane does not suffice.
   const Surface bow = detrended(bowed, Detrend::plane);
   CHECK(bow.heights.isNaN().select(0.0, bow.heights).abs().maxCoeff() > 1e-6);
 }

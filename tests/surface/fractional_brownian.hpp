@@ -10,14 +10,14 @@
 
 #include "base/fft.hpp"
 
-/// Fractional Brownian profiles and surfaces by exact circulant embedding, made without the
-/// library's generators: they are not periodic, have no longest wave, and points fold all waves
-/// that are shorter than two cells.
+/// Fractional Brownian profiles and surfaces by exact circulant embedding, independent of the
+/// library's generators. They are not periodic, have no longest wave, and alias all waves shorter
+/// than two cells.
 class FractionalBrownian {
  public:
   explicit FractionalBrownian(unsigned seed) : engine_(seed) {}
 
-  /// A profile of `points` by Davies and Harte (1987); increments have the variance 1.
+  /// A profile of `points` points by Davies and Harte (1987); its increments have variance 1.
   salebra::Field profile(salebra::Index points, double hurst) {
     using salebra::Index;
     const Index n = 2 * points;
@@ -35,8 +35,8 @@ class FractionalBrownian {
     return heights;
   }
 
-  /// n × n points of a surface by Stein (2002) as Kroese and Botev (2015) have it; ⟨Δh²⟩ = 2 r^2H
-  /// within the unit circle, of which this is the largest square in a quarter.
+  /// n × n points of a surface by Stein (2002), as described by Kroese and Botev (2015). ⟨Δh²⟩ = 2
+  /// r^2H within the unit circle; the surface is the largest square in a quarter of it.
   salebra::Field surface(salebra::Index n, double hurst) {
     using salebra::Index;
     const double alpha = 2 * hurst, range = alpha <= 1.5 ? 1 : 2;
@@ -64,7 +64,7 @@ class FractionalBrownian {
   }
 
  private:
-  /// Gaussian numbers of a periodic covariance: white noise times the root of its spectrum.
+  /// Gaussian numbers with a periodic covariance: white noise times the root of its spectrum.
   salebra::Field embedded(const salebra::Field& covariance) {
     using salebra::Index;
     const Index rows = covariance.rows(), columns = covariance.cols();

@@ -43,7 +43,7 @@ struct Coverage {
 }  // namespace
 
 TEST_CASE("Intervals of H hold the truth of exact fractional Brownian profiles", "[hurst]") {
-  // Points fold the waves that are shorter than two cells, pixels take away those that are not.
+  // Points alias waves shorter than two cells; pixels attenuate the others.
   const Index pixel = GENERATE(1, 8);
   Coverage all;
   for (const double hurst : {0.2, 0.5, 0.8})
@@ -55,10 +55,10 @@ TEST_CASE("Intervals of H hold the truth of exact fractional Brownian profiles",
               hurst);
   INFO(all.covered << " of " << all.found << ", half-width " << all.width / all.found);
   CHECK(all.found == 36);
-  // Of 36 at 95 %, less than 31 have a probability of 1 %; the interval without a free floor and
-  // attenuation held 10 of 36 of the points.
+  // At 95 %, fewer than 31 of 36 have a probability of 1 %. With a fixed floor and attenuation, the
+  // interval covered only 10 of the 36 with points.
   CHECK(all.covered >= 31);
-  // And an interval that says something.
+  // The interval must also be narrow enough to be useful.
   CHECK(all.width / all.found < 0.15);
 }
 
@@ -73,14 +73,14 @@ TEST_CASE("Intervals of H hold the truth of fractional Brownian maps of points a
               hurst);
   INFO(all.covered << " of " << all.found << ", half-width " << all.width / all.found);
   CHECK(all.found == 12);
-  // Of 12 at 95 %, less than 10 have a probability of 2 %.
+  // At 95 %, fewer than 10 of 12 have a probability of 2 %.
   CHECK(all.covered >= 10);
 }
 
 TEST_CASE("Waves that the instrument does not show take no part in H", "[hurst]") {
   const double hurst = 0.5, shortest = 5 * cell;
   const Surface line = measured(1e-9 * FractionalBrownian(3).profile(4000, hurst));
-  // Means over six cells each way of what they were take the shorter waves away.
+  // A mean over 13 cells removes the shorter waves.
   Surface blurred = line;
   for (Index i = 6; i + 6 < line.grid.nx; ++i)
     blurred.heights(i, 0) = line.heights.block(i - 6, 0, 13, 1).mean();
@@ -94,13 +94,14 @@ TEST_CASE("Waves that the instrument does not show take no part in H", "[hurst]"
   CHECK(whole.wavenumber_max > 2 * std::numbers::pi / shortest);
   REQUIRE(part.found());
   CHECK(part.wavenumber_max <= 2 * std::numbers::pi / shortest);
-  // Nothing is left.
+  // No usable waves remain.
   CHECK_FALSE(of_map(scan, 60 * cell).found());
   CHECK_FALSE(fit_profile(line, 1).hurst.found());
 }
 
 TEST_CASE("Waves that a tip which is not stated has rounded take no part in H", "[hurst]") {
-  // Times the radius of curvature that unscanned heights have at one cell, which shifts H by up to 0.3.
+  // Tip radius over the radius of curvature of the unscanned heights at one cell. Such tips shift H
+  // by up to 0.3.
   const double severity = GENERATE(3, 10);
   Coverage all;
   int asymmetric = 0;
@@ -119,8 +120,8 @@ TEST_CASE("Waves that a tip which is not stated has rounded take no part in H", 
     all.add(of_map(scanned(measured(1e-8 * FractionalBrownian(7).surface(192, hurst)))), hurst);
   INFO(all.covered << " of " << all.found << ", asymmetric " << asymmetric);
   CHECK(asymmetric == 21);
-  // Of 18 profiles at 95 %, less than 15 have a probability of 1 %; with all waves, 11 and 7 of the 21 hold. A map of
-  // 192 points has too few waves left for an interval in most cases.
+  // At 95 %, fewer than 15 of 18 profiles have a probability of 1 %; if all waves are used, 11 and
+  // 7 of the 21 are covered. In most cases a map of 192 points keeps too few waves for an interval.
   CHECK(all.found >= 14);
   CHECK(all.covered >= all.found - 3);
 }
@@ -135,9 +136,10 @@ TEST_CASE("Peaks and valleys of Gaussian heights do not differ, those of other s
     asymmetric += power_spectrum(measured(FractionalBrownian(seed).profile(2000, 0.7)))
                       .asymmetric_wavelength > 0;
   }
-  // Forty tests of some ten lags with a probability of 3e-4 each: two have one of 1 %.
+  // Forty tests of some ten lags with a probability of 3e-4 each: two failures have a probability
+  // of 1 %.
   CHECK(asymmetric <= 1);
-  // Cusps in valleys along y alone, and a plane and a bow, which have no peaks.
+  // Cusps in valleys along y only, and a plane and a bow, which have no peaks.
   const Index n = 96;
   Field heights = FractionalBrownian(3).surface(n, 0.7);
   const double rough =
@@ -150,7 +152,7 @@ TEST_CASE("Peaks and valleys of Gaussian heights do not differ, those of other s
   CHECK(power_spectrum(grooved).asymmetric_wavelength > 0);
   grooved.heights = Field(heights.transpose());
   CHECK(power_spectrum(grooved).asymmetric_wavelength > 0);
-  // Generated surfaces repeat, and no instrument has seen them.
+  // Periodic surfaces are generated, so no instrument has distorted them.
   grooved.periodic = true;
   CHECK(power_spectrum(grooved).asymmetric_wavelength == 0);
 }
@@ -163,6 +165,6 @@ TEST_CASE("A tip that is stated does not shift H", "[hurst]") {
     scan.heights = dilated(scan.heights, cell, radius);
     all.add(of_map(scan, short_wavelength_limit(scan, {.tip_radius = radius}).wavelength()), hurst);
   }
-  // Of four at 95 %, one or none has a probability of 5e-4.
+  // At 95 %, one or none of four has a probability of 5e-4.
   CHECK(all.covered >= all.found - 2);
 }

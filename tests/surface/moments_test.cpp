@@ -14,8 +14,8 @@ using std::numbers::pi;
 TEST_CASE("Height moments of a two-valued surface", "[moments]") {
   Surface surface =
       sampled({4, 4, 1, 1}, false, [](double x, double) { return x < 0.2 ? 4.0 : 0.0; });
-  // One point in four is 4: mean 1, variance 3, third moment (27 − 3)/4 = 6, fourth (81 + 3)/4
-  // = 21.
+  // One point in four is 4, hence mean 1, variance 3, third moment (27 − 3)/4 = 6 and fourth moment
+  // (81 + 3)/4 = 21.
   const HeightStatistics all = height_statistics(surface);
   CHECK(all.mean == Approx(1).epsilon(1e-15));
   CHECK(all.rms_height == Approx(std::sqrt(3.0)).epsilon(1e-15));
@@ -38,7 +38,7 @@ TEST_CASE("Spectral moments of two waves are those of calculus, odd and even gri
     return 7e-6 + a * std::cos(qx * x + qy * y + 0.3) + b * std::sin(ky * y);
   });
   const SpectralMoments moments = spectral_moments(surface);
-  // The waves are resolved, so only the round-off of the transform remains.
+  // The waves are resolved; only the round-off of the transform remains.
   CHECK(moments.moment0 == Approx((a * a + b * b) / 2).epsilon(1e-12));
   CHECK(moments.moment2_x == Approx(a * a * qx * qx / 2).epsilon(1e-12));
   CHECK(moments.moment2_y == Approx((a * a * qy * qy + b * b * ky * ky) / 2).epsilon(1e-12));
@@ -78,8 +78,8 @@ TEST_CASE("Difference moments tend to the spectral ones at second order", "[mome
   };
   const auto [slope, curvature] = error(64);
   const auto [finer_slope, finer_curvature] = error(128);
-  // Errors are (q dx)²/12 and (q dx)²/6 with a relative remainder (q dx)² ~ 0.04, and n + 1 is not
-  // quite doubled.
+  // Errors are (q dx)²/12 and (q dx)²/6 with a relative remainder of (q dx)² ~ 0.04, and n + 1 is
+  // not exactly doubled.
   CHECK(std::log2(slope / finer_slope) == Approx(2).margin(0.05));
   CHECK(std::log2(curvature / finer_curvature) == Approx(2).margin(0.05));
   CHECK(slope > 0);
@@ -99,7 +99,7 @@ TEST_CASE("Statistics refuse what they cannot measure", "[moments]") {
   CHECK_THROWS_AS(spectral_moments(surface), InvalidInput);
   surface.periodic = true;
   surface.heights(1, 1) = std::nan("");
-  // The library says what to do, programs by which of their commands.
+  // The library names the remedy; a program adds its command for it.
   CHECK_THROWS_MATCHES(spectral_moments(surface), UndefinedPoints,
                        Catch::Message("heights: 1 undefined points cannot be used in spectral "
                                       "moments; fill them or crop them first"));

@@ -22,13 +22,13 @@ Field wave(Index n, Index m, double amplitude, int k) {
 }  // namespace
 
 TEST_CASE("A wave stands in its bin of the plain average with its power", "[plain_average]") {
-  // Hann's window spreads a wave of mode k over k and k ± 1 in the shares 4/6, 1/6 and 1/6; ⟨h²⟩ =
-  // a²/2 = 2Σ C₁ dq.
+  // Hann's window distributes a wave of mode k over k and k ± 1 in the shares 4/6, 1/6 and 1/6;
+  // ⟨h²⟩ = a²/2 = 2Σ C₁ dq.
   constexpr double amplitude = 1e-8, length = 1e-4;
   for (const Index m : {Index{1}, Index{8}, Index{9}}) {
     const PlainSpectrum spectrum =
         plain_spectrum(wave(128, m, amplitude, 2), {128, m, length, length});
-    // The modes 1, 2 and 3 have bins of their own.
+    // Each of the modes 1, 2 and 3 has its own bin.
     double power = 0;
     for (std::size_t at = 0; at < 3; ++at) {
       CHECK(spectrum.wavenumber[at] ==
@@ -43,7 +43,7 @@ TEST_CASE("The plain average is the mean of what stands in a bin", "[plain_avera
   const PlainSpectrum coarse = plain_spectrum(wave(64, 64, 1e-7, 3), {64, 64, 1e-3, 1e-3}),
                       fine = plain_spectrum(wave(64, 64, 3e-9, 4), {64, 64, 1e-4, 1e-4});
   const PlainSpectrum both = plain_average({coarse, fine});
-  // The same lattice a decade apart: the same bins, ten further.
+  // The same lattice a decade apart has the same bins, shifted by ten.
   CHECK(fine.bin.front() == coarse.bin.front() + 10);
   CHECK(both.bin.size() < coarse.bin.size() + fine.bin.size());
   const auto value = [](const PlainSpectrum& spectrum, Index bin) {

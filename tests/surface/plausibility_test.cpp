@@ -18,7 +18,7 @@ namespace {
 Surface ripple(double factor, double tilt = 0) {
   const Grid2D grid{64, 48, 64e-6, 48e-6};
   const double wavelength = 16e-6, q = 2 * std::numbers::pi / wavelength;
-  // Differences of neighbours take sin(q dx/2)/(q dx/2) off the slope, 0.6 % here.
+  // Differences of neighbours reduce the slope by sin(q dx/2)/(q dx/2), 0.6 % here.
   const double amplitude = 0.083 * std::sqrt(2) / q;
   return sampled(grid, false, [&](double x, double y) {
     return factor * (amplitude * std::sin(q * x) + tilt * (x + y));
@@ -33,19 +33,20 @@ TEST_CASE("Heights whose unit was forgotten are doubted with the unit that is pl
   for (const auto& [factor, unit] : {std::pair(1e3, "mm"), {1e6, "\u00b5m"}, {1e9, "nm"}}) {
     const auto warning = warning_of_heights(ripple(factor));
     REQUIRE(warning);
-    CHECK_THAT(*warning, Contains(std::string("heights in ") + unit + "? rms slope would be 0.08"));
+    CHECK_THAT(*warning,
+               Contains(std::string("heights in ") + unit + "? Then the rms slope would be 0.08"));
   }
-  // What was taken for micrometres and are nanometres.
+  // Nanometres that were read as micrometres.
   const auto warning = warning_of_heights(ripple(1e3), 1e-6);
   REQUIRE(warning);
-  CHECK_THAT(*warning, Contains("heights in nm? rms slope would be 0.08"));
+  CHECK_THAT(*warning, Contains("heights in nm? Then the rms slope would be 0.08"));
 }
 
 TEST_CASE("The tilt of a stage is no slope of the surface", "[plausibility]") {
   CHECK_FALSE(warning_of_heights(ripple(1, 10)));
   const auto warning = warning_of_heights(ripple(1e6, 10));
   REQUIRE(warning);
-  CHECK_THAT(*warning, Contains("heights in \u00b5m? rms slope would be 0.08"));
+  CHECK_THAT(*warning, Contains("heights in \u00b5m? Then the rms slope would be 0.08"));
 }
 
 TEST_CASE("A slope that no unit explains is doubted without one", "[plausibility]") {
@@ -77,7 +78,7 @@ TEST_CASE("Heights without pairs of neighbours are not doubted", "[plausibility]
     for (Index iy = ix % 2; iy < holes.grid.ny; iy += 2)
       holes.heights(ix, iy) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(warning_of_heights(holes));
-  // A hole is no step.
+  // A hole is not a step.
   Surface hole = ripple(1);
   hole.heights(5, 5) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(warning_of_heights(hole));
@@ -88,7 +89,7 @@ TEST_CASE("Values that are no heights are doubted", "[plausibility]") {
   CHECK(warnings_of_values(heights, 1.).empty());
   const auto only = [](const Field& changed, std::optional<double> unit = 1.) {
     const auto warnings = warnings_of_values(changed, unit);
-    return warnings.size() == 1 ? doubts[0] : std::to_string(warnings.size()) + " doubts";
+    return warnings.size() == 1 ? warnings[0] : std::to_string(warnings.size()) + " doubts";
   };
   SECTION("Whole numbers, unless the file states their unit") {
     const Field whole = 1e-9 * (1e8 * heights).round();
@@ -104,7 +105,7 @@ TEST_CASE("Values that are no heights are doubted", "[plausibility]") {
     changed.col(0) = 1e-7;
     CHECK_THAT(only(changed), Contains("first row"));
     CHECK(warnings_of_values(changed, {}).empty());
-    // Each column of a ripple along x holds one value, the second as the first.
+    // For a ripple along x each column holds one value, but the second column equals the first.
     CHECK(warnings_of_values(heights, 1.).empty());
   }
   SECTION("Repeated pits and peaks that may be marks") {

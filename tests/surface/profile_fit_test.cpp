@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Row `iy` of a surface along x.
+/// Row `iy` of a surface as a profile along x.
 Surface line(const Surface& surface, Index iy, Index points) {
   const double step = surface.grid.dx();
   Surface profile{{points, 1, double(points) * step, step}, Field(points, 1), false, "line"};
@@ -52,14 +52,15 @@ TEST_CASE("The spectrum of a profile is the integral of that of its surface", "[
           return p > c.cutoff ? 0 : p < c.rolloff ? 1 : std::pow(p / c.rolloff, -2 - 2 * c.hurst);
         },
         const_cast<Case*>(&at)};
-    // The plateau up to the kink, and from there to the end.
+    // The plateau up to the kink, and the power law from there to the end.
     const double kink = at.q < at.rolloff ? std::sqrt(at.rolloff * at.rolloff - at.q * at.q) : 0;
     const double end = std::sqrt(at.cutoff * at.cutoff - at.q * at.q);
     double after, error;
     gsl_integration_workspace* work = gsl_integration_workspace_alloc(200);
     gsl_integration_qag(&law, kink, end, 0, 1e-9, 200, GSL_INTEG_GAUSS61, work, &after, &error);
     gsl_integration_workspace_free(work);
-    // Sixteen points of the rule for a power of the cosine that vanishes at the end.
+    // The tolerance is that of the 16-point rule, for a power of the cosine that vanishes at the
+    // end.
     CHECK(profile_density(at.q, at.hurst, at.rolloff, at.cutoff) ==
           Approx(2 * (kink + after)).epsilon(2e-5));
   }
@@ -81,21 +82,22 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
     inside += fit.hurst.low <= hurst && hurst <= fit.hurst.high;
     sum += fit.hurst.value;
     slope += fit.surface_slope * fit.surface_slope;
-    // Fifteen roll-offs lie in the profile, of whose plateau it has some ten waves: too few to see
-    // it in most lines.
+    // The profile is fifteen roll-offs long, so the plateau has some ten waves, too few to be seen
+    // in most lines.
     if (!std::isnan(fit.rolloff)) CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
     if (!std::isnan(fit.short_cutoff)) {
       ++cutoffs;
-      // A bin is 12 % wide, and the end of a profile is that of its surface smeared.
+      // A bin is 12 % wide, and the end of the spectrum of a profile is smeared compared with its
+      // surface.
       CHECK(fit.short_cutoff == Approx(short_cutoff).epsilon(0.125));
     }
     ++lines;
   }
-  // Of 11, less than 8 have a probability of 0.2 % where 95 % cover.
+  // At 95 % coverage, fewer than 8 of 11 have a probability of 0.2 %.
   CHECK(inside >= 8);
   CHECK(cutoffs >= 9);
   CHECK(sum / lines == Approx(hurst).margin(0.05));
-  // Differences of neighbours see 2 % less of waves of eight points.
+  // For waves of eight points, differences of neighbours underestimate the slope by 2 %.
   CHECK(std::sqrt(slope / lines) == Approx(0.1).epsilon(0.05));
 }
 
@@ -110,12 +112,13 @@ TEST_CASE("A profile of sixty roll-offs shows where its plateau ends", "[profile
     ++rolloffs;
     CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
   }
-  // Ten of eleven are seen. Neighbouring lines are alike, so that only most of them are asked for.
+  // Ten of eleven are seen. Neighbouring lines are correlated, so the test only requires most of
+  // them.
   CHECK(rolloffs > lines / 2);
 }
 
 TEST_CASE("What a profile does not show is not found in it", "[profile]") {
-  // Rolled off far beyond the profile, and sampled coarser than its shortest wave.
+  // The roll-off is far beyond the profile, and the sampling is coarser than the shortest wave.
   const Surface surface = rough(0.7, 8000e-6, 2e-6, 3);
   int rolloffs = 0, cutoffs = 0;
   for (Index iy = 0; iy < 128; iy += 16) {

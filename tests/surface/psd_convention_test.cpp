@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 namespace {
 
-/// Trapezoidal rule in ln q, which is what a table on a log-log plot asks for.
+/// Trapezoidal rule in ln q, as a reader of a log–log table would use.
 double integral(const std::vector<double>& q, const std::vector<double>& values) {
   double sum = 0;
   for (std::size_t k = 1; k < q.size(); ++k)
@@ -27,7 +27,7 @@ double integral(const std::vector<double>& q, const std::vector<double>& values)
 }  // namespace
 
 TEST_CASE("The mean square height is the same in every convention", "[psd]") {
-  // A Gaussian spectrum sampled finely: no grid, no rings.
+  // A finely sampled Gaussian spectrum, without a grid or rings.
   const Grid2D grid{100, 100, 2e-3, 2e-3};
   const double rms = 3e-6, length = 1e-4;
   RadialSpectrum spectrum;
@@ -46,12 +46,12 @@ TEST_CASE("The mean square height is the same in every convention", "[psd]") {
     if (convention == PsdConvention::gwyddion) return sum;
     return convention == PsdConvention::surface_topography ? sum / (2 * pi) : 2 * pi * sum;
   };
-  // Steps of 1 % and the disc below the first wave number: 1e-5.
+  // Steps of 1 % and the disc below the first wave number cause errors of 1e-5.
   for (const auto convention :
        {PsdConvention::salebra, PsdConvention::surface_topography, PsdConvention::gwyddion,
         PsdConvention::tamaas, PsdConvention::rfgen})
     CHECK(mean_square(convention) == Approx(rms * rms).epsilon(1e-4));
-  // Wave number of a wave of ten cells: 1/10 cycles in a sample, 10 waves on the side.
+  // A wave of ten cells has 1/10 cycles per sample and 10 waves per side.
   spectrum.wavenumber = {2 * pi / (10 * grid.dx())};
   spectrum.psd = {1};
   CHECK(converted(spectrum, grid, PsdConvention::rfgen).wavenumber.front() == Approx(0.1));
@@ -70,7 +70,7 @@ TEST_CASE("Profiles of a periodic surface: their spectrum is that of the surface
   for (Index i = 1; i <= nx / 2; ++i) {
     double sum = 0;
     for (Index j = 0; j < area.psd.cols(); ++j) {
-      // Both (i, j) and (i, −j); the latter is the conjugate of (−i, j).
+      // Add both (i, j) and (i, −j); the latter is the conjugate of (−i, j).
       sum += area.psd(i, j);
       if (area.multiplicity(j) == 2) sum += area.psd((nx - i) % nx, j);
     }
@@ -91,7 +91,7 @@ TEST_CASE("Parseval: the spectrum of profiles holds their variance about their m
   for (std::size_t k = 0; k < psd.psd.size(); ++k)
     sum += static_cast<double>(psd.modes[k]) * psd.psd[k] * psd.step() / 6;
   CHECK(sum == Approx(variance).epsilon(1e-13));
-  // Twice as large over q > 0 in the other convention.
+  // The other convention is twice as large over q > 0.
   const ConvertedPsd other = converted(psd, PsdConvention::surface_topography);
   CHECK(other.psd[3] == Approx(2 * pi * psd.psd[3]));
 }
@@ -108,8 +108,8 @@ TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
     sum += static_cast<double>(radial.modes[k]) * radial.psd[k];
     modes += static_cast<double>(radial.modes[k]);
   }
-  // The mean of w²h² over 10800 points: ⟨w⁴⟩ ≈ 4 to 7, ⟨h⁴⟩/⟨h²⟩² = 1.8; 4 standard deviations are
-  // 4·√(12/10800).
+  // Four standard deviations of the mean of w²h² over 10800 points are 4·√(12/10800), with
+  // ⟨w⁴⟩ ≈ 4 to 7 and ⟨h⁴⟩/⟨h²⟩² = 1.8.
   CHECK(sum / modes == Approx(exact).epsilon(window == Window::none ? 0.04 : 0.14));
   const ProfilePsd profiles = profile_psd(surface, Axis::x, window);
   double mean = 0;
@@ -119,8 +119,8 @@ TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
 }
 
 TEST_CASE("A window takes the leakage of a tilt out of the short waves", "[psd]") {
-  // A plane has no short waves; its steps at the edges leave C ∝ q⁻² along the axes, a Hann window
-  // q⁻⁶.
+  // A plane has no short waves. Its steps at the edges give C ∝ q⁻² along the axes, or q⁻⁶ with a
+  // Hann window.
   const Surface plane = sampled({128, 128, 1, 1}, false, [](double x, double) { return x; });
   const auto high = [&](Window window) {
     const ProfilePsd psd = profile_psd(plane, Axis::x, window);
@@ -129,7 +129,8 @@ TEST_CASE("A window takes the leakage of a tilt out of the short waves", "[psd]"
   CHECK(high(Window::none) > 1e-4);
   CHECK(high(Window::hann) < 1e-9);
   CHECK(high(Window::blackman) < 1e-9);
-  // It ends with a slope: C ∝ q⁻⁴, 50⁻⁴ = 1.6e-7, of a plane whose first mode is not on that line.
+  // The Welch window ends with a slope, so C ∝ q⁻⁴ with 50⁻⁴ = 1.6e-7; the first mode of a plane
+  // deviates from that law.
   CHECK(high(Window::welch) < 1e-6);
 }
 

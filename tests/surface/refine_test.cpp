@@ -12,8 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Waves that 12 × 10 points hold, along both axes and between them, on a surface with `points`
-// times as many.
+// Waves that 12 × 10 points resolve, along both axes and diagonally, on a surface with `points`
+// times as many points along each axis.
 Surface waves(Index points) {
   const Grid2D grid{12 * points, 10 * points, 3e-6, 2e-6};
   Surface surface{grid, Field(grid.nx, grid.ny), true, ""};
@@ -36,8 +36,8 @@ TEST_CASE("Fourier interpolation of a band-limited surface is that surface") {
     const Surface fine = refined(waves(1), factor), exact = waves(factor);
     CHECK(fine.grid == exact.grid);
     CHECK(fine.periodic);
-    // Round-off of transforms of numbers of order 1. cos 5y has the shortest wave of ten points,
-    // cos 6x of twelve.
+    // Round-off of transforms of numbers of order 1. cos 5y is the shortest wave of ten points, cos
+    // 6x that of twelve.
     CHECK(max_difference(fine.heights, exact.heights) < 1e-13);
   }
 }
@@ -80,8 +80,8 @@ TEST_CASE(
     return max_difference(refined(coarse, 2).heights, exact.heights);
   };
   const double order = std::log2(error(32) / error(64));
-  // The next power in the error is the sixth, of relative size (2π·3/32)² at most: the order is 4
-  // to a few tenths.
+  // The next power in the error is the sixth, relatively at most (2π·3/32)², so the order is 4 to a
+  // few tenths.
   CHECK(order == Approx(4).margin(0.3));
 }
 
@@ -92,7 +92,8 @@ TEST_CASE("The step at the seam of a scan stays at the seam") {
     const Field fine = refined(surface, 2).heights;
     return std::abs(fine(41, 0) - 20.5);
   };
-  // (2 − √3)^20 of a step of 64 is 2e-10; Fourier interpolation rings there with about 64/(20π).
+  // (2 − √3)^20 of a step of 64 is 2e-10; the ringing of Fourier interpolation there is about
+  // 64/(20π).
   CHECK(off_ramp_at_20(scan) < 1e-9);
   scan.periodic = true;
   CHECK(off_ramp_at_20(scan) > 0.1);

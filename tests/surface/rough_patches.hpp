@@ -12,9 +12,9 @@
 
 #include "base/fft.hpp"
 
-/// Pieces of an infinite Gaussian surface of a given spectrum, made without the library's
-/// generators, whose surfaces have no wave longer than themselves: short waves from a periodic box
-/// of twice the size, long ones as plane waves of any wave vector.
+/// Patches of an infinite Gaussian surface with a given spectrum. They are made without the
+/// library's generators, whose surfaces have no wave longer than themselves: short waves come from
+/// a periodic box of twice the size, long ones from plane waves of any wave vector.
 class RoughPatches {
  public:
   explicit RoughPatches(unsigned seed) : engine_(seed) {}
@@ -26,7 +26,7 @@ class RoughPatches {
   }
 
   /// n × n heights on a square of the given side; density(q) is C. Waves beyond the Nyquist wave
-  /// number are not in it: take every_second() of a finer patch for points that fold them.
+  /// number are missing: for points that alias them, take every_second() of a finer patch.
   salebra::Field patch(salebra::Index n, double side,
                        const std::function<double(double)>& density) {
     using salebra::Index;
@@ -41,7 +41,7 @@ class RoughPatches {
         auto& mode = modes[static_cast<std::size_t>(i * columns + j)];
         mode = 0;
         if (k < longest_of_box) continue;
-        // Compilers evaluate arguments in orders of their own.
+        // Compilers evaluate function arguments in different orders.
         const double imaginary = normal(), real = normal();
         mode = std::sqrt(density(step * k) / 2) * step * std::complex<double>(real, imaginary);
       }
@@ -56,7 +56,7 @@ class RoughPatches {
   }
 
  private:
-  static constexpr double longest_of_box = 3;  ///< modes of the box, 1.5 of the patch
+  static constexpr double longest_of_box = 3;  ///< in modes of the box, 1.5 of the patch
 
   void add_long_waves(double side, const std::function<double(double)>& density,
                       salebra::Field& heights) {
@@ -74,7 +74,8 @@ class RoughPatches {
         const double kappa = std::sqrt(uniform(low * low, high * high)),
                      angle = (direction + uniform(0, 1)) / directions * std::numbers::pi;
         const double q = 2 * std::numbers::pi * kappa / side;
-        // Both ±q: a half-plane of directions has the power of the whole.
+        // A half-plane of directions carries the power of the whole plane, because each wave has
+        // ±q.
         const double area = std::numbers::pi * (high * high - low * low) / directions *
                             std::pow(2 * std::numbers::pi / side, 2);
         const double amplitude = std::sqrt(density(q) * area);
@@ -92,7 +93,7 @@ class RoughPatches {
             sum(i, j) += a * value.real() + b * value.imag();
           }
       }
-    // Six points of Lagrange: of waves of 64 cells the error is 1e-8.
+    // Lagrange interpolation over six points; for waves of 64 cells the error is 1e-8.
     const Eigen::MatrixXd between = [&] {
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, points);
       for (Index i = 0; i < n; ++i) {
@@ -115,7 +116,7 @@ class RoughPatches {
   std::normal_distribution<double> normal_;
 };
 
-/// What a paraboloid of the radius shows of the heights; cell is the distance of points.
+/// The heights as scanned by a paraboloid of this radius; cell is the distance of points.
 inline salebra::Field dilated(salebra::Field heights, double cell, double radius) {
   using salebra::Index;
   const double range = heights.maxCoeff() - heights.minCoeff();
@@ -139,7 +140,7 @@ inline salebra::Field dilated(salebra::Field heights, double cell, double radius
   return heights;
 }
 
-/// Every second point each way.
+/// Every second point along each axis.
 inline salebra::Field every_second(const salebra::Field& fine) {
   using salebra::Index;
   salebra::Field coarse(fine.rows() / 2, fine.cols() / 2);

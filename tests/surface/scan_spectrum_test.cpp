@@ -16,7 +16,8 @@ namespace {
 
 constexpr double micro = 1e-6;
 
-/// Mean periodogram of plane waves of one wave number and all directions and phases, amplitude 1 µm.
+/// Mean periodogram of plane waves of amplitude 1 µm with one wave number, over directions and
+/// phases.
 std::vector<double> of_plane_waves(const Grid2D& grid, double kappa, bool drift) {
   const twin_detail::ScanModes modes(grid);
   const double q = modes.wavenumber(kappa);
@@ -27,7 +28,7 @@ std::vector<double> of_plane_waves(const Grid2D& grid, double kappa, bool drift)
   for (int direction = 0; direction < directions; ++direction)
     for (const double phase : {0.0, pi / 2}) {
       const double angle = (direction + 0.5) / directions * pi;
-      // cos(qx + qy + phase), by the cosines and sines of its parts.
+      // cos(qx + qy + phase) from the cosines and sines of its two terms.
       const auto along = [](Index n, double step, double at) {
         return (step * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1)) + at).eval();
       };
@@ -54,8 +55,8 @@ std::vector<double> of_plane_waves(const Grid2D& grid, double kappa, bool drift)
 }  // namespace
 
 TEST_CASE("The response to a plane wave is the mean periodogram of such waves", "[twin]") {
-  // Maps that are square, wide, and of oblong cells; a line. Of some 200 points and 48 directions the
-  // means differ from those of a continuum and of all directions by less than 1.5 % of the sum.
+  // Square, wide and oblong-celled maps, and a line. With some 200 points and 48 directions, means
+  // differ from those of a continuum with all directions by less than 1.5 % of the sum.
   for (const auto& [grid, drift] : {std::pair{Grid2D{192, 192, 1e-4, 1e-4}, false},
                                     std::pair{Grid2D{192, 192, 1e-4, 1e-4}, true},
                                     std::pair{Grid2D{256, 128, 2e-4, 1e-4}, false},
@@ -68,7 +69,7 @@ TEST_CASE("The response to a plane wave is the mean periodogram of such waves", 
       while (response.limits[cell + 1] < about) ++cell;
       const double kappa = response.middle[cell];
       const std::vector<double> measured = of_plane_waves(grid, kappa, drift);
-      // C of the waves is a ring of the cell's area that holds their mean square.
+      // C of the waves is a ring with the area of the cell that contains their mean square.
       const double a = response.limits[cell], b = response.limits[cell + 1];
       const double density =
           micro * micro / 2 / (pi * (b * b - a * a)) * std::pow(modes.side / (2 * pi), 2);
@@ -93,28 +94,29 @@ TEST_CASE("White noise has its own density in every bin", "[twin]") {
   const double density = micro * micro * grid.cell_area() / (4 * pi * pi);
   double sum = 0, modes = 0;
   for (std::size_t bin = 2; bin < spectrum.psd.size(); ++bin) {
-    // Five standard deviations of as many independent modes as there are, Hann's quarter.
+    // Five standard deviations, with Hann's quarter of the modes being independent.
     const double deviation = 1 / std::sqrt(0.25 * static_cast<double>(spectrum.modes[bin]) / 2);
     CHECK(spectrum.psd[bin] / density == Approx(1).margin(5 * deviation));
     sum += spectrum.psd[bin] * static_cast<double>(spectrum.modes[bin]);
     modes += static_cast<double>(spectrum.modes[bin]);
   }
-  // The whole: 40 000 modes, of which a quarter is independent.
+  // Mean over all 40 000 modes, a quarter of which are independent.
   CHECK(sum / modes / density == Approx(1).margin(0.04));
-  // The bins are those of the documentation, and hold the modes of their rings.
+  // The bins are as documented and contain the modes of their rings.
   CHECK(spectrum.modes[0] == 8);
   CHECK(spectrum.modes[1] == 12);
   CHECK(spectrum.modes[2] == 16);
   CHECK(spectrum.modes[3] == 32);
 
-  // In every band of heights it is Gaussian: 65 000 and 240 points.
+  // The heights in every band, 65 000 and 240 points, are Gaussian.
   for (const HeightBand& band : spectrum.bands) {
     const double count = static_cast<double>(band.blocks);
     CHECK(std::abs(band.skewness) < 6 * std::sqrt(6 / count));
     CHECK(std::abs(band.kurtosis - 3) < 6 * std::sqrt(24 / count));
   }
   REQUIRE(spectrum.bands.size() >= 3);
-  // The mean over nine takes a ninth of the variance, the block itself being one of them.
+  // Subtracting the mean over nine blocks, one of which is the block itself, removes a ninth of the
+  // variance.
   CHECK(spectrum.bands[0].rms_height == Approx(micro * std::sqrt(8.0 / 9)).epsilon(0.02));
   CHECK(spectrum.bands[1].rms_height == Approx(micro / 2 * std::sqrt(8.0 / 9)).epsilon(0.04));
 }
@@ -144,8 +146,8 @@ TEST_CASE("A tilt is nothing, and drift of lines leaves what is used of them", "
   afm.line_drift = false;
   const ScanSpectrum spoiled = scan_spectrum(drifted, grid, afm);
   const ScanSpectrum whole = scan_spectrum(heights, grid, afm);
-  // The offsets have a hundred times the power of the heights in the longest waves. The tapers leak
-  // a thousandth of it past |k| = 2, and Hann's window nothing.
+  // In the longest waves the offsets have a hundred times the power of the heights. Beyond |k| = 2
+  // the tapers leak a thousandth of it, and Hann's window nothing.
   CHECK(spoiled.psd[2] > 100 * whole.psd[2]);
   for (std::size_t bin = 0; bin < plain.psd.size(); ++bin) {
     if (plain.modes[bin] < 4) continue;

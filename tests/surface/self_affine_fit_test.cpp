@@ -29,7 +29,7 @@ TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 
       ++found_rolloff;
       covered_rolloff += fit.rolloff.low <= rolloff && rolloff <= fit.rolloff.high;
     }
-    // No noise and no window: the spectrum ends between two modes.
+    // Without noise and window, the spectrum ends between two modes.
     ended += fit.short_cutoff.low <= short_cutoff * 1.0001 &&
              short_cutoff <= fit.short_cutoff.high * 1.0001;
   }
@@ -45,8 +45,8 @@ TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 
 }
 
 TEST_CASE("A crop that is not periodic has honest intervals of H too", "[self_affine]") {
-  // The window makes neighbouring modes alike. Judged by the scatter of few rings alone, intervals
-  // were too short: 88 to 90 %.
+  // The window correlates neighbouring modes. Intervals from the scatter of few rings alone would
+  // be too short: they covered 88 to 90 %.
   constexpr double hurst = 0.5;
   const SelfAffineSpectrum target(
       {.hurst = hurst, .rolloff = 0.25, .short_cutoff = 3.0 / 128, .rms_height = 1});
@@ -63,7 +63,7 @@ TEST_CASE("A crop that is not periodic has honest intervals of H too", "[self_af
     covered += interval.low <= hurst && hurst <= interval.high;
   }
   INFO(covered << " of " << found << ", end: " << ended);
-  // The window smears the end of the spectrum over two modes, which the interval allows for.
+  // The window smears the end of the spectrum over two modes, which the interval includes.
   CHECK(ended >= 0.99 * found);
   CHECK(found >= 0.95 * surfaces);
   CHECK(covered >= 0.90 * found);
@@ -75,7 +75,7 @@ TEST_CASE("Fixed amplitudes give the cut-offs of the spectrum itself", "[self_af
       {.hurst = 0.5, .rolloff = 0.1, .short_cutoff = 4.0 / 256, .rms_height = 1});
   const SelfAffineFit fit =
       fit_self_affine(power_spectrum(random_phase({256, 256, 1, 1}, target, 1)));
-  // Rings of 1/64 in ln q, of which one holds the kink.
+  // Rings are 1/64 wide in ln q; one of them contains the kink.
   CHECK(fit.rolloff.value == Approx(0.1).epsilon(0.01));
   CHECK(fit.short_cutoff.value == Approx(4.0 / 256).epsilon(0.01));
 }
@@ -102,7 +102,7 @@ TEST_CASE("Neighbours that a window has made alike widen the interval of the rol
   PowerSpectrum spectrum = power_spectrum(surface);
   REQUIRE(spectrum.correlated_modes > 3);
   const auto honest = fit_self_affine(spectrum).rolloff;
-  // Twice as many count as one: √2 times as wide, but for the shape of the likelihood.
+  // If twice as many modes count as one, the interval is about √2 times as wide.
   spectrum.correlated_modes *= 2;
   const auto cautious = fit_self_affine(spectrum).rolloff;
   REQUIRE((honest.found() && cautious.found()));
@@ -124,7 +124,7 @@ TEST_CASE("The fitted range of H leaves out the waves that a window mixes, and c
   for (Index i = 0; i < 128; ++i) {
     for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      // The limits are those of the outermost modes.
+      // The limits are the wave numbers of the outermost modes.
       if (q > fit.wavenumber_min * (1 - 1e-9) && q < fit.wavenumber_max * (1 + 1e-9))
         modes += static_cast<Index>(spectrum.multiplicity(j));
     }

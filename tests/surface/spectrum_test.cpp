@@ -51,7 +51,7 @@ TEST_CASE("A wave has its power in its mode: a²/4 at q and at −q over the cel
     return 5 + amplitude * std::cos(2 * pi * (3 * x / lx - 2 * y / ly) + 1);
   });
   const PowerSpectrum spectrum = power_spectrum(wave);
-  // (3, −2) stands in the half-spectrum as its conjugate (−3, 2).
+  // The half-spectrum stores (3, −2) as its conjugate (−3, 2).
   CHECK(spectrum.psd(13, 2) ==
         Approx(amplitude * amplitude / 4 * lx * ly / (4 * pi * pi)).epsilon(1e-13));
   CHECK(spectrum.wavenumber_x(13) == Approx(-2 * pi * 3 / lx));
@@ -70,9 +70,9 @@ TEST_CASE("The PSD of a generated surface is the one asked, with a window too", 
     if (independent < 100 || q > 0.85 * 2 * pi * 64) continue;
     if (std::abs(std::log2(q / (2 * pi * 10))) < 0.3) continue;  // the ring with the kink
     INFO("q = " << q);
-    // Mean of n exponential variates: 4 standard deviations (1.94 times as wide under the window),
-    // and the curvature of C within a ring (2^(1/4) wide: 1 %) and within the window,
-    // (1/6)·3.4²/(qL/2π)².
+    // The tolerance includes 4 standard deviations of the mean of n exponential variates (1.94
+    // times as wide with the window), and the curvature of C within a ring (2^(1/4) wide: 1 %) and
+    // within the window, (1/6)·3.4²/(qL/2π)².
     const double waves = q / (2 * pi);
     const double tolerance = 4 * (windowed ? 1.94 : 1) / std::sqrt(independent) + 0.02 +
                              (windowed ? 2 / (waves * waves) : 0);
@@ -84,8 +84,7 @@ TEST_CASE(
     "Under a window the spectrum holds the mean square of the weighted heights about their "
     "weighted mean",
     "[psd]") {
-  // A parabola along x, so that the weighted mean is not the mean; a cell that is longer along y
-  // than along x.
+  // A parabola along x makes the weighted mean differ from the mean; the cell is longer along y.
   Surface surface = white({24, 30, 1.0, 2.0}, false);
   for (Index ix = 0; ix < 24; ++ix) surface.heights.row(ix) += 0.01 * double(ix * ix);
   const auto at_edges = [](Index i, Index n) { return 2 * pi * (double(i) + 0.5) / double(n); };
@@ -150,7 +149,7 @@ TEST_CASE("The Hurst exponent is found, and its interval covers it", "[hurst]") 
   double sum = 0;
   constexpr int runs = 40;
   for (int seed = 0; seed < runs; ++seed) {
-    // A quarter of a periodic surface is not periodic.
+    // A part of a periodic surface is not periodic.
     Surface surface = filtered_noise({256, 256, 1, 1}, target, static_cast<std::uint64_t>(seed));
     if (!periodic)
       surface = {
@@ -165,7 +164,7 @@ TEST_CASE("The Hurst exponent is found, and its interval covers it", "[hurst]") 
   INFO("covered " << covered << " of " << found << ", mean " << sum / found);
   CHECK(found >= runs - 1);
   CHECK(sum / found == Approx(hurst).margin(0.03));
-  // 95 % of 40 are 38; 33 or fewer would be a chance of 1 in 100 at 93 %.
+  // 95 % of 40 are 38; at 93 %, 33 or fewer have a probability of 1 in 100.
   CHECK(covered >= 33);
 }
 
@@ -181,13 +180,13 @@ TEST_CASE("Where there is no power law there is no Hurst exponent", "[hurst]") {
 }
 
 TEST_CASE("Fixed amplitudes give the Hurst exponent of the spectrum itself", "[hurst]") {
-  // Wherever the plateau ends within a ring: a ring that holds both sides takes no part.
+  // A ring that contains both sides of the kink is excluded, wherever the kink lies in it.
   const double rolloff = GENERATE(0.25, 0.11, 0.093);
   const SelfAffineSpectrum target(
       {.hurst = 0.5, .rolloff = rolloff, .short_cutoff = 8.0 / 512, .rms_height = 1});
   const HurstEstimate estimate =
       estimate_hurst(power_spectrum(random_phase({512, 512, 1, 1}, target, 1)));
-  // Every mode lies on the power law: nothing but rounding moves the fit.
+  // Every mode lies on the power law, so only rounding affects the fit.
   CHECK(estimate.value == Approx(0.5).epsilon(1e-6));
   CHECK(estimate.high - estimate.low < 1e-6);
 }

@@ -21,7 +21,7 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 const Grid2D grid{256, 192, 256e-6, 192e-6};
 
-/// A self-affine surface of rms height 0.3 µm.
+/// A self-affine surface with an rms height of 0.3 µm.
 Surface rough(double hurst, std::uint64_t seed = 1) {
   SelfAffineParameters parameters;
   parameters.hurst = hurst;
@@ -48,7 +48,7 @@ TEST_CASE("Spikes are found where they are, whatever the surface below", "[spike
   Surface dirty = clean;
   std::mt19937 engine(3);
   std::set<std::pair<Index, Index>> expected;
-  // Single points, pairs and squares of four, 8 µm up or down, apart from each other; corners too.
+  // Isolated single points, pairs and squares of four, 8 µm up or down, also at corners.
   for (Index ix = 0; ix < grid.nx; ix += 51)
     for (Index iy = 0; iy < grid.ny; iy += 38) {
       const auto kind = engine() % 3;
@@ -63,27 +63,29 @@ TEST_CASE("Spikes are found where they are, whatever the surface below", "[spike
   const std::vector<Spike> found = find_spikes(dirty);
   CHECK(places(found) == expected);
   for (const Spike& spike : found) {
-    // The surface beside a spike differs from it by less than its own height of 1.5 µm.
+    // The surface next to a spike differs from the surface below it by less than its range of 1.5
+    // µm.
     CHECK(std::abs(std::abs(spike.height) - 8e-6) < 1.5e-6);
     CHECK((spike.height > 0) ==
           (dirty.heights(spike.ix, spike.iy) > clean.heights(spike.ix, spike.iy)));
   }
   const Surface cleaned = despiked(dirty);
   CHECK(cleaned.undefined_points() == Index(expected.size()));
-  // They make more than half of the slope; less 0.2 % of its points, the surface has its own.
+  // The spikes cause more than half of the slope; without 0.2 % of its points the surface has its
+  // own slope.
   CHECK(difference_moments(dirty).rms_slope() > 2 * difference_moments(clean).rms_slope());
   CHECK(difference_moments(cleaned).rms_slope() ==
         Approx(difference_moments(clean).rms_slope()).epsilon(0.01));
 }
 
 TEST_CASE("A clean surface has no spikes", "[spikes]") {
-  // 2e-9 of Gaussian points by six deviations: none among 2.5 million.
+  // A fraction of 2e-9 of Gaussian points exceeds six deviations: none of 2.5 million.
   for (const double hurst : {0.1, 0.3, 0.5, 0.8, 1.0})
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       INFO("H = " << hurst << ", seed " << seed);
       CHECK(find_spikes(rough(hurst, seed)).empty());
     }
-  // Uniform and independent points, and those of an instrument with noise of a few digits.
+  // Uniform independent points, and points with a noise of few digits.
   CHECK(find_spikes(white(grid, true)).empty());
   Surface coarse = white(grid, false);
   coarse.heights = (0.6 * coarse.heights).round();  // −1, 0 or 1, of which most are 0
@@ -100,7 +102,7 @@ TEST_CASE("Steps, scratches and plateaus are features, no spikes", "[spikes]") {
   };
   CHECK(with([](Field& h) { h.bottomRows(100) += 5e-6; }).empty());
   CHECK(with([](Field& h) { h.block(40, 50, 30, 20) += 5e-6; }).empty());
-  CHECK(with([](Field& h) { h.block(40, 50, 3, 2) += 5e-6; }).empty());  // with four corners
+  CHECK(with([](Field& h) { h.block(40, 50, 3, 2) += 5e-6; }).empty());  // larger than any spike
   CHECK(with([](Field& h) { h.row(77) -= 5e-6; }).empty());
   CHECK(with([](Field& h) { h.block(77, 30, 1, 90) -= 5e-6; }).empty());
   CHECK(with([](Field& h) {
@@ -113,7 +115,7 @@ TEST_CASE("Spikes beside holes and on a flat surface are found", "[spikes]") {
   surface.heights.block(100, 80, 12, 9).setConstant(undefined);
   surface.heights(99, 84) += 8e-6;
   CHECK(places(find_spikes(surface)) == std::set<std::pair<Index, Index>>{{99, 84}});
-  // Of a point with less than three neighbours nothing is known.
+  // A point with fewer than three neighbours cannot be judged.
   surface.heights(105, 84) = 8e-6;
   CHECK(find_spikes(surface).size() == 1);
 
@@ -121,7 +123,7 @@ TEST_CASE("Spikes beside holes and on a flat surface are found", "[spikes]") {
   CHECK(find_spikes(flat).empty());
   flat.heights(7, 9) = 2e-6;
   CHECK(places(find_spikes(flat)) == std::set<std::pair<Index, Index>>{{7, 9}});
-  // Across the edge of a periodic surface there are neighbours too.
+  // On a periodic surface, points across the edge are neighbours too.
   Surface edge = sampled(grid, true, [](double, double) { return 0; });
   edge.heights.row(0).setConstant(1e-6);
   edge.heights(grid.nx - 1, 3) = 1e-6;
@@ -184,8 +186,8 @@ TEST_CASE("Single spikes are those of the definition, on grids of any shape and 
       if (around.size() < 3 || std::isnan(height)) continue;
       const double middle = median(around), half = (height + middle) / 2;
       if (std::ranges::any_of(around, [&](double h) { return (h > half) == (height > half); }))
-        continue;  // not alone
-      // One beside it that is found may have taken it for a point of its own.
+        continue;  // not isolated
+      // A spike found next to this point may include it.
       if (std::ranges::any_of(places_around(ix, iy),
                               [&](const auto& place) { return found.contains(place); }))
         continue;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -27,7 +27,7 @@ using salebra::testing::run_ranks;
 
 namespace {
 
-/// The rows of a surface that this process holds.
+/// The rows of a surface that belong to this process.
 Surface spread(const Surface& whole, const Communicator& ranks) {
   Surface surface = whole;
   surface.communicator = ranks;
@@ -36,8 +36,8 @@ Surface spread(const Surface& whole, const Communicator& ranks) {
   return surface;
 }
 
-/// What each process has of the whole, and parts of lists that are spread over the processes in
-/// their order.
+/// Results that every process has of the whole, and parts of lists that are distributed over the
+/// processes in order.
 struct Numbers {
   std::vector<double> of_all;
   std::vector<std::vector<double>> parts;
@@ -102,14 +102,14 @@ void spectra_of(const Surface& surface, Numbers& numbers) {
   if (surface.periodic) numbers.add(spectral_moments(surface));
   for (const Window window : {Window::none, Window::hann, Window::radial_hann}) {
     const PowerSpectrum spectrum = power_spectrum(surface, window);
-    numbers.add_part(spectrum.psd.transpose());  // it is spread by columns
+    numbers.add_part(spectrum.psd.transpose());  // distributed by columns
     numbers.add({spectrum.correlated_modes, spectrum.asymmetric_wavelength});
     const RadialSpectrum radial = radial_spectrum(spectrum);
     numbers.add(radial.wavenumber);
     numbers.add(radial.psd);
     numbers.add(radial.modes);
-    // The fit takes longer than all the rest, and knows of the surface only whether it was seen
-    // through a window: each once.
+    // The fit takes longer than all other statistics and depends on the window only through whether
+    // there is one, so each case runs once.
     if (window == (surface.periodic ? Window::none : Window::hann)) {
       const SelfAffineFit fit = fit_self_affine(spectrum);
       numbers.add({fit.hurst.value, fit.hurst.low, fit.hurst.high, fit.hurst.wavenumber_min,
@@ -168,13 +168,13 @@ TEST_CASE("Statistics of a spread surface have the bits of one process", "[stati
                                 .rms_height = 0.01});
   Surface whole = random_phase(grid, law, 5);
   whole.periodic = GENERATE(true, false);
-  // An offset of which sums lose digits.
+  // An offset makes sums lose digits.
   whole.heights += 1;
   SECTION("of heights") { check_same_bits(whole, heights_of); }
   SECTION("of differences") { check_same_bits(whole, differences_of); }
   SECTION("of summits") { check_same_bits(whole, summits_of); }
   SECTION("of spectra") {
-    if (grid.ny == 64)  // or else the test would compare what was not found
+    if (grid.ny == 64)  // otherwise the test would compare results that were not found
       REQUIRE(fit_self_affine(power_spectrum(whole, Window::none)).hurst.found());
     check_same_bits(whole, spectra_of);
   }

@@ -20,8 +20,8 @@ TEST_CASE("An off-grid rotated paraboloid is one summit with its vertex and curv
   });
   const SummitList list = find_summits(cap);
   REQUIRE(list.summits.size() == 1);
-  // Least squares reproduces a paraboloid exactly; second differences of heights ~3 over 0.1² leave
-  // 1e-13.
+  // Least squares reproduces a paraboloid exactly; second differences of heights ~3 over 0.1² have
+  // errors of 1e-13.
   CHECK(list.summits[0].x == Approx(x0).epsilon(1e-11));
   CHECK(list.summits[0].y == Approx(y0).epsilon(1e-11));
   CHECK(list.summits[0].height == Approx(3).epsilon(1e-12));
@@ -33,7 +33,8 @@ TEST_CASE("An off-grid rotated paraboloid is one summit with its vertex and curv
 
 TEST_CASE("An egg box has its summits' density, height and radius, at second order in the step",
           "[summits]") {
-  // h = a(cos qx + cos qy): maxima of height 2a on a lattice of period λ, curvature a q² both ways.
+  // h = a(cos qx + cos qy) has maxima of height 2a on a lattice of period λ, with curvature a q²
+  // along both axes.
   const double a = 1e-6, period = 1e-4, q = 2 * pi / period;
   const auto statistics = [&](Index n) {
     const Surface box = sampled({n, n, 4 * period, 4 * period}, true, [&](double x, double y) {
@@ -48,8 +49,8 @@ TEST_CASE("An egg box has its summits' density, height and radius, at second ord
   CHECK(fine.mean_height == Approx(2 * a).epsilon(1e-3));
   CHECK(fine.rms_height < 1e-9 * a);
   const double exact = 1 / (a * q * q);
-  // Leading error (q dx)² times a constant; the next term is (q dx)² ~ 0.04 to 0.15 of it, and the
-  // vertex moves in its cell.
+  // The leading error is (q dx)² times a constant. The next term is (q dx)² ~ 0.04 to 0.15 of it,
+  // and the vertex moves within its cell.
   CHECK(std::log2((coarse.mean_radius / exact - 1) / (fine.mean_radius / exact - 1)) ==
         Approx(2).margin(0.3));
 }
@@ -72,8 +73,8 @@ TEST_CASE("Equal neighbours are one summit, a flat surface has none", "[summits]
 TEST_CASE("Every point above its eight neighbours is a summit, however rough the surface",
           "[summits]") {
   const Surface rough = white({64, 48, 1, 1}, true);
-  // Independent heights: one point in nine is the highest of its nine; the count scatters by a few
-  // per cent.
+  // For independent heights, one point in nine is the highest of its nine; the count scatters by a
+  // few per cent.
   const SummitStatistics statistics = summit_statistics(find_summits(rough));
   CHECK(statistics.summit_density == Approx(64 * 48 / 9.0).epsilon(0.1));
   CHECK(statistics.mean_radius > 0);
@@ -91,7 +92,7 @@ TEST_CASE("Points beside an undefined one are not searched", "[summits]") {
 
 TEST_CASE("A summit whose paraboloid has its vertex elsewhere stands on its point", "[summits]") {
   Surface surface{{5, 5, 5, 5}, Field::Constant(5, 5, -10), false, "one summit"};
-  // Along x within each of three rows; the least-squares paraboloid rises beyond the neighbours.
+  // Three rows along x; the least-squares paraboloid rises beyond the neighbours.
   surface.heights.col(1).segment(1, 3) << -2, -0.7, 0.4;
   surface.heights.col(2).segment(1, 3) << 0.9, 1, 0.99;
   surface.heights.col(3).segment(1, 3) << -2, -0.7, 0.4;

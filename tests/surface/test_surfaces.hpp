@@ -16,8 +16,8 @@ inline salebra::Surface sampled(const salebra::Grid2D& grid, bool periodic,
   return surface;
 }
 
-/// Independent heights, uniform in (−1, 1) m: power at every wave number, the Nyquist lines
-/// included.
+/// Independent heights, uniform in (−1, 1) m, with power at every wave number, including the
+/// Nyquist lines.
 inline salebra::Surface white(const salebra::Grid2D& grid, bool periodic, unsigned seed = 1) {
   std::mt19937 engine(seed);
   return sampled(grid, periodic, [&](double, double) {

@@ -31,7 +31,7 @@ struct Moments {
   double rms_height = 0, rms_slope = 0;
 };
 
-/// By Simpson's rule, in ln q up to the end; waves from 10⁻⁴ of the roll-off on.
+/// Moments by Simpson's rule in ln q, from 10⁻⁴ of the roll-off to the end.
 Moments integrated(const TwinDraw& draw) {
   constexpr int steps = 20000;
   const double end = 2 * pi / draw.short_cutoff, start = 2 * pi / draw.rolloff * 1e-4;
@@ -87,7 +87,8 @@ std::vector<ScanSpectrum> two_instruments(RoughPatches& patches, const TwinDraw&
   return scans;
 }
 
-/// A quick fit: fewer draws, no checks. One thread: that more change no bit is a test of its own.
+/// A quick fit with fewer draws and without checks. It uses one thread; another test shows that
+/// more threads change no bits.
 SurfaceTwin quick_twin(const std::vector<ScanSpectrum>& scans, TwinOptions options = {}) {
   const int before = parallel::threads();
   parallel::set_threads(1);
@@ -112,13 +113,13 @@ TEST_CASE("Moments of a draw are those of its density", "[twin]") {
       const TwinDraw draw = twin_detail::draw_of(own, parameters, 1e5);
       const Moments moments = integrated(truth);
       INFO(name_of(form) << ", H = " << hurst);
-      // The corner between two points costs Simpson's rule 1e-6.
+      // The corner between two points causes an error of 1e-6 in Simpson's rule.
       CHECK(draw.rms_height == Approx(moments.rms_height).epsilon(1e-5));
       CHECK(draw.rms_slope == Approx(moments.rms_slope).epsilon(1e-5));
       CHECK(draw.density(1e6) == Approx(truth.density(1e6)).epsilon(1e-12));
       CHECK(draw.density(2e7) == 0);
     }
-  // A spline through a power law is that law, between its knots and beyond.
+  // A spline through a power law equals that law between and beyond its knots.
   twin_detail::TwinLaw table{SpectrumForm::table, 1e6, {}};
   std::vector<double> parameters;
   const TwinDraw power = law(SpectrumForm::corner, 0.7, 1, 5e-7);
@@ -193,15 +194,16 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
       model.residuals(moved, work, down, nullptr);
       const Eigen::VectorXd difference = (up - down) / (2 * step);
       INFO(name_of(form) << ", parameter " << p);
-      // Central differences: 1e-16/1e-6 of residuals up to 1000, and their third derivative.
+      // Central differences have errors of 1e-16/1e-6 of residuals up to 1000, and of the third
+      // derivative.
       CHECK((slopes.col(p) - difference).norm() <= 2e-5 * (difference.norm() + 1));
     }
   }
 }
 
 TEST_CASE("The twin of two instruments holds the truth", "[twin]") {
-  // Of three surfaces and five quantities, one of 20 intervals misses by chance: with these seeds
-  // at most one may. The widths are those of the posterior, which the seeds hardly change.
+  // With three surfaces and five quantities, one of 20 intervals misses by chance; with these seeds
+  // at most one may miss. The widths come from the posterior and hardly depend on the seeds.
   int missed = 0;
   for (const unsigned seed : {1u, 2u, 3u}) {
     RoughPatches patches(seed);
@@ -228,11 +230,11 @@ TEST_CASE("The twin of two instruments holds the truth", "[twin]") {
     CHECK(missed <= 1);
     CHECK(twin.hurst.high - twin.hurst.low < 0.2);
     CHECK(twin.rms_slope.high / twin.rms_slope.low < 1.3);
-    // The calibration of 5 % of two instruments is in it.
+    // The interval includes the calibration of 5 % of two instruments.
     CHECK(twin.rms_slope.high / twin.rms_slope.low > 1.08);
     CHECK(twin.draws.size() == 300);
     CHECK(twin.draw(7).hurst == twin.draw(7).hurst);
-    // The band holds the truth nearly everywhere, below the cut-off's interval.
+    // The band contains the truth nearly everywhere, up to the interval of the cut-off.
     int inside = 0, asked = 0;
     for (std::size_t k = 0; k < twin.spectrum.wavenumber.size(); ++k) {
       const double q = twin.spectrum.wavenumber[k];
@@ -248,7 +250,7 @@ TEST_CASE("The twin of two instruments holds the truth", "[twin]") {
 
 TEST_CASE("What no scan sees is said and gets a limit", "[twin]") {
   RoughPatches patches(11);
-  // Waves 40 times longer than the scans, and ten times shorter than their cells.
+  // Waves extend to 40 times the scans and to a tenth of their cells.
   const TwinDraw truth = law(SpectrumForm::corner, 0.7, 4e-3, 2e-8);
   std::vector<ScanSpectrum> scans;
   for (int scan = 0; scan < 3; ++scan)
@@ -269,11 +271,12 @@ TEST_CASE("What no scan sees is said and gets a limit", "[twin]") {
   CHECK(!twin.rms_height.found());
   CHECK(!twin.rms_slope.seen);
   CHECK(holds(twin.hurst, 0.7));
-  std::string notes;
-  for (const std::string& warning : twin.warnings) notes += note + "\n";
-  CHECK_THAT(notes, Contains("roll-off is not seen"));
-  CHECK_THAT(notes, Contains("short cut-off is not seen"));
-  // Draws go up to the prior's 30 times the largest scan, never to its size.
+  std::string warnings;
+  for (const std::string& warning : twin.warnings) warnings += warning + "\n";
+  CHECK_THAT(warnings, Contains("do not show the roll-off"));
+  CHECK_THAT(warnings, Contains("do not resolve the short cut-off"));
+  // Draws extend to the limit of the prior, 30 times the largest scan, not only to the size of the
+  // scan.
   double longest = 0;
   for (const TwinDraw& draw : twin.draws) longest = std::max(longest, draw.rolloff);
   CHECK(longest > 1e-3);
@@ -290,13 +293,13 @@ TEST_CASE("A tip is believed up to R κ_rms of 0.08", "[twin]") {
   REQUIRE(data.size() == 1);
   REQUIRE(data[0].tip_limit > 0);
   CHECK(data[0].wavenumber.back() < data[0].tip_limit);
-  // κ_rms² = ⅜∫q⁴C d²q of the truth itself up to the limit, within a bin's ratio of 1.15 in q and
-  // the scatter of few modes.
+  // κ_rms² = ⅜∫q⁴C d²q of the truth up to the limit, within the bin ratio of 1.15 in q and the
+  // scatter of few modes.
   double square = 0;
   for (double q = 2 * pi / 20e-6; q < data[0].tip_limit; q *= 1.001)
     square += 3.0 / 8 * 2 * pi * 0.001 * std::pow(q, 6) * truth.density(q);
   CHECK(1e-6 * std::sqrt(square) == Approx(0.08).epsilon(0.3));
-  // A tip ten times finer goes on.
+  // A ten times sharper tip reaches shorter waves.
   scans.front().instrument.tip_radius = 1e-7;
   const auto finer = twin_detail::grouped(scans, {false}, responses);
   CHECK(finer[0].wavenumber.back() > 2 * data[0].wavenumber.back());
@@ -316,8 +319,8 @@ TEST_CASE("Heights are as uncertain as their calibration", "[twin]") {
     for (ScanSpectrum& scan : scans) scan.instrument.height_calibration = calibration;
     widths.push_back(width(quick_twin(scans, {.leave_one_out = false})));
   }
-  // 3.92 of 10 %/√2, two instruments being one mean where both say the same, to 10 %, one deciding
-  // on the slope alone. Without it, modes and scans alone.
+  // The width is 3.92 times 10 %/√2 if both instruments determine the slope equally, and 3.92 times
+  // 10 % if one of them does alone. With a calibration of 1 %, only modes and scans contribute.
   CHECK(widths[1] > 3.92 * 0.1 / std::sqrt(2) * 0.75);
   CHECK(widths[1] < 3.92 * 0.1 * 1.1);
   CHECK(widths[0] < widths[1] / 2);
@@ -331,7 +334,7 @@ TEST_CASE("A bad scan is left out, and a bad instrument is named", "[twin]") {
   for (const TwinScan& scan : good.scans) CHECK(!scan.left_out);
   for (const TwinWithout& without : good.without) CHECK(without.agrees);
 
-  // Spikes in one scan: white power.
+  // Spikes in one scan add white power.
   std::vector<ScanSpectrum> spoiled = scans;
   spoiled[3].name = "C3";
   for (double& power : spoiled[3].psd) power += 1e-32;
@@ -344,8 +347,8 @@ TEST_CASE("A bad scan is left out, and a bad instrument is named", "[twin]") {
   CHECK(twin.hurst.value == Approx(good.hurst.value).margin(0.03));
   CHECK(!quick_twin(spoiled, {.drop_bad_scans = false, .leave_one_out = false}).scans[3].left_out);
 
-  // Heights of the microscope twice what they are: beyond any calibration of 5 %. Where the two
-  // meet, one of them must be wrong.
+  // Doubled heights of the microscope exceed any calibration of 5 %. Where both instruments
+  // overlap, one of them must be wrong.
   for (std::size_t scan = 2; scan < 5; ++scan)
     for (double& power : scans[scan].psd) power *= 4;
   const SurfaceTwin wrong = quick_twin(scans);
@@ -377,7 +380,7 @@ TEST_CASE("The twin has the same bits for every number of threads and the same s
 TEST_CASE("A spectrum that is not self-affine becomes a table", "[twin]") {
   RoughPatches patches(71);
   const TwinDraw base = law(SpectrumForm::corner, 0.7, 2.5e-5, 6e-7);
-  // A hump of a factor of ten at 5 µm, as wide as the spline follows.
+  // A hump by a factor of ten at 5 µm, wide enough for the spline to follow.
   const auto density = [&](double q) {
     const double off = std::log(q / (2 * pi / 5e-6)) / 0.5;
     return base.density(q) * (1 + 9 * std::exp(-off * off / 2));
@@ -406,7 +409,7 @@ TEST_CASE("A spectrum that is not self-affine becomes a table", "[twin]") {
 }
 
 TEST_CASE("Noise eight decades below the longest waves is kept as it is", "[twin]") {
-  // Waves far longer than the scan: C at κ = 1 is 5e8 times the noise.
+  // Waves are far longer than the scan: C at κ = 1 is 5e8 times the noise.
   const TwinDraw truth = law(SpectrumForm::corner, 0.9, 2e-3, 1e-6);
   RoughPatches patches(21);
   const std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
@@ -423,8 +426,8 @@ TEST_CASE("Noise eight decades below the longest waves is kept as it is", "[twin
 }
 
 TEST_CASE("Beyond a sharp end of the waves there is what the window leaks", "[twin]") {
-  // 100 modes in the side, no noise. The formula is that along an axis, the largest; the mean over
-  // directions is some fifteenth of it, the same at every distance from the end.
+  // 100 modes per side, no noise. The formula is for waves along an axis, the maximum; the mean
+  // over directions is about a fifteenth of it at every distance from the end.
   const TwinDraw truth = law(SpectrumForm::corner, 0.7, 5e-5, 2e-6);
   RoughPatches patches(22);
   ScanInstrument ideal;
@@ -446,7 +449,7 @@ TEST_CASE("Beyond a sharp end of the waves there is what the window leaks", "[tw
 }
 
 TEST_CASE("Profiles of a surface give the spectrum of the surface", "[twin]") {
-  // Ten lines of 100 µm, far from each other, of one surface.
+  // Ten lines of 100 µm, far apart, on one surface.
   RoughPatches patches(81);
   const TwinDraw truth = law(SpectrumForm::corner, 0.8, 2e-5, 2e-6);
   std::vector<ScanSpectrum> lines;
@@ -468,7 +471,7 @@ TEST_CASE("Profiles of a surface give the spectrum of the surface", "[twin]") {
             << twin.short_cutoff.high << ", h' " << twin.rms_slope.low / moments.rms_slope << " "
             << twin.rms_slope.high / moments.rms_slope << " misfit " << twin.misfit);
   CHECK(twin.misfit < 2.2);
-  // One of 20 intervals misses by chance, and these lie close.
+  // One of 20 intervals misses by chance, and these are close.
   CHECK(holds(twin.hurst, 0.8) + holds(twin.rms_slope, moments.rms_slope) +
             holds(twin.rolloff, truth.rolloff) >=
         2);

@@ -13,54 +13,58 @@
 #include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/operating_point.hpp>
-#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/dissipation.hpp>
 #include <string>
 #include <variant>
 #include <vector>
 
-/// The contact of a problem: a law, or what a law is computed from, and the operating point.
+/// The contact of a problem: a contact law, or the data from which a law is computed, and its
+/// operating points.
 namespace salebra {
 
-/// Connection to the caller while a problem is solved.
+/// Callbacks to the caller while a problem is solved.
 struct Context {
   Progress on_progress = {};
-  /// Called at every evaluation of a law, so that all searches and quadratures over it stop,
-  /// whether or not they report progress: true throws Interrupted. Empty: never.
+  /// Called at every evaluation of a contact law; if it returns true, Interrupted is thrown.
+  /// Searches and quadratures over a law can thus be stopped even if they do not report progress.
+  /// Empty: never stops.
   std::function<bool()> stopped = {};
 };
 
-/// F = F0 exp(δ/l) about the first of its forces; F'' = F/l² whatever F0 is.
+/// Contact with the exponential law F = F0 exp(δ/l), where F0 is the first entry of normal_force.
+/// (F'' = F/l² does not depend on the choice of F0.)
 struct ExponentialContact {
-  double decay_length = 0;   ///< l > 0, m
-  double modulus_ratio = 0;  ///< G*/E* > 0
-  std::vector<double> normal_force = {};
+  double decay_length = 0;                ///< l > 0, m
+  double modulus_ratio = 0;               ///< G*/E* > 0
+  std::vector<double> normal_force = {};  ///< operating points, N
 };
 
-/// An axisymmetric indenter, load-controlled or at given indentations.
+/// A contact of an axisymmetric indenter; `at` gives forces or indentations as operating points.
 struct IndenterContact {
   std::shared_ptr<const IndenterProfile> profile;
   Material material;
   OperatingPoints at;
 };
 
-/// A computed or measured curve, at any control quantity that it has.
+/// A computed or measured force curve, with operating points in any control quantity that the curve
+/// contains.
 struct CurveContact {
   ForceCurve curve;
   double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t
   OperatingPoints at;
-  std::string source = {};  ///< name of the curve in messages: its file
+  std::string source = {};  ///< name of the curve in messages, e.g. its file
 };
 
-/// A surface; its law comes from a sweep of thirteen contacts about each pressure.
+/// A surface, whose contact law comes from a sweep of thirteen loads about each pressure.
 struct SurfaceContact {
   Surface surface;
   Material material;
-  std::vector<double> pressure = {};  ///< nominal, Pa
-  /// Hardness for a plastic first loading to the largest pressure and by an oscillation about it,
-  /// Pa. None: elastic.
+  std::vector<double> pressure = {};  ///< nominal pressures, Pa
+  /// Hardness, Pa, for a plastic first loading up to the largest pressure plus an oscillation about
+  /// it. Empty: elastic.
   std::optional<double> hardness = {};
-  double normal_amplitude = 0;  ///< of that oscillation, m
+  double normal_amplitude = 0;  ///< amplitude of that oscillation, m
 };
 
 using ContactProblem =
@@ -69,36 +73,39 @@ using ContactProblem =
 /// The law of a contact, its operating points, and the data behind it.
 struct ContactSolution {
   std::unique_ptr<const ContactLaw> law;
-  std::vector<OperatingPoint> points;              ///< operating points on the law
-  std::optional<ForceCurve> curve = {};            ///< curve behind the law
-  std::optional<Surface> surface = {};             ///< swept surface, residual after first loading
+  std::vector<OperatingPoint> points;    ///< operating points on the law
+  std::optional<ForceCurve> curve = {};  ///< curve from which the law was made
+  std::optional<Surface> surface = {};   ///< swept surface, residual after a first loading
   std::optional<FirstLoading> first_loading = {};  ///< first loading that left the residual surface
-  std::vector<std::string> warnings = {};            ///< warnings: the input is valid but suspicious
+  std::vector<std::string> warnings = {};          ///< warnings: the input is valid but suspicious
 
   /// Index of the sample of the curve whose load is nearest to the first operating point.
   std::size_t load() const;
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
-  /// Adds to the contact parameters, at a mean and at the deepest indentation, those that the law,
-  /// the curve and the first loading determine.
-  ContactParameters parameters_at(ContactParameters parameters, double indentation, double deepest) const;
-  /// Checks a loss that includes slip and finite amplitude: the assumptions of slip, slow motion
-  /// and small amplitude hold without a value, and the others are checked.
+  /// Adds to `parameters` those that follow from the law, the curve and the first loading, at the
+  /// mean indentation `indentation` and at the indentation `deepest`.
+  ContactParameters parameters_at(ContactParameters parameters, double indentation,
+                                  double deepest) const;
+  /// Checks the assumptions of a loss that includes slip and finite amplitude: the assumptions of
+  /// no slip, slow motion and small amplitude get the verdict `holds` without a value; all other
+  /// assumptions are checked.
   Assumptions assumptions_beside_slip(double indentation, const Oscillation& motion,
-                                const ContactParameters& known) const;
+                                      const ContactParameters& known) const;
 };
 
 /// Computes the law and the operating points of a contact.
 ///
 ///     ContactSolution contact = solve(SurfaceContact{surface, material, {1e6, 5e6}});
 ///
-/// throws  InvalidInput for values that are not > 0, operating points beyond a curve, and as the
-///         laws, after_first_loading() and sweep_pressures() do; NotConverged, Interrupted
+/// throws  InvalidInput for values that are not > 0, for operating points outside a curve, and
+///         wherever the laws, after_first_loading() and sweep_pressures() do; NotConverged,
+///         Interrupted
 /// cost    for a surface some thirteen contacts in full stick for each pressure, and the first
 ///         loading
 ContactSolution solve(ContactProblem problem, const Context& context = {});
 
 /// Returns the law alone, for a motion with its own indentations; operating points are ignored.
-/// Throws InvalidInput for a surface, which has none before a sweep.
+/// Throws InvalidInput for a surface, which has no law before a sweep.
 std::unique_ptr<const ContactLaw> law_of(const ContactProblem& problem,
                                          const Context& context = {});
 
@@ -131,13 +138,14 @@ constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
   visit(&S::force_curvature, quantity::force_curvature);
 }
 
-/// Returns the state of a law at an indentation, m. Throws as the law.
+/// Returns the state of a law at an indentation, m. Throws InvalidInput outside the range of the
+/// law.
 LawState state_of(const ContactLaw& law, double indentation);
 IndenterState state_of(const IndenterLaw& law, double indentation);
 
 /// Mean summit of a surface with adhesion.
 struct MeanSummit {
-  double tabor = ForceSample::unknown;
+  double tabor = ForceSample::unknown;  ///< Tabor's parameter
 };
 
 constexpr void describe(auto&& visit, std::type_identity<MeanSummit>) {
@@ -146,19 +154,20 @@ constexpr void describe(auto&& visit, std::type_identity<MeanSummit>) {
 }
 
 /// Returns Tabor's parameter for the mean summit radius from the moments of the surface [Nayak
-/// (1971)]; unknown where they are not those of a random surface, and without adhesion.
+/// (1971)]; unknown if the moments cannot be those of a random surface, and without adhesion.
 MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double contact_modulus);
 
 /// Replaces the surface by the residual surface of the first loading and returns that loading;
 /// without a hardness it does nothing.
-/// contact  boundary, tolerance and progress
-/// throws   NotConverged, Interrupted, and as after_first_loading()
+/// contact  boundary, tolerance and progress of the contact solves
+/// throws   NotConverged, Interrupted, and InvalidInput wherever after_first_loading() does
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
                                        double contact_modulus, double nominal_pressure,
                                        NormalContactOptions contact, double normal_amplitude = 0);
 
-/// Warns about a table of radii beyond 1 m, most likely in another unit, or so coarse that omitting
-/// every other point changes the indentation at this contact radius by more than 5 %.
+/// Returns warnings about a tabulated profile: for radii above 1 m, which are most likely in
+/// another unit, and for a table so coarse that omitting every other point changes the indentation
+/// at this contact radius by more than 5 %.
 std::vector<std::string> warnings_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra

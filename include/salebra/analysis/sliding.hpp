@@ -10,26 +10,27 @@
 #include <vector>
 
 /// Friction of a sliding contact under normal oscillation, and the motion of a slider that a spring
-/// drags over it.
+/// drags over such a contact.
 namespace salebra {
 
-/// Steady sliding over velocities, at one or several amplitudes.
+/// Steady sliding at several velocities and at one or several amplitudes of the normal oscillation.
 struct SlidingProblem {
   std::vector<double> normal_amplitude;      ///< u_z, m
-  double angular_frequency = 0;              ///< rad/s
+  double angular_frequency = 0;              ///< ω of the normal oscillation, rad/s
   double friction_coefficient = 0;           ///< μ
   std::vector<double> velocities;            ///< m/s
   std::vector<double> velocity_ratios = {};  ///< v/v_c of each amplitude, instead of velocities
-  /// Excursions X of slow motions, m, for a regime map; with one amplitude.
+  /// Excursions X of slow motions, m, for a regime map, which needs a single amplitude; empty: no
+  /// map.
   std::vector<double> excursions = {};
   Hold hold = Hold::indentation;
 };
 
 /// Friction under vibration at each amplitude and velocity.
 struct SlidingSolution {
-  std::vector<SlidingPoint> points;  ///< amplitude by amplitude
+  std::vector<SlidingPoint> points;  ///< all velocities of the first amplitude first
   std::optional<RegimeMap> regimes;
-  std::vector<std::string> warnings = {};  ///< beside those of the contact
+  std::vector<std::string> warnings = {};  ///< additional to those of the contact
 };
 
 /// Computes steady sliding of a law, and the regimes if excursions are given.
@@ -37,14 +38,14 @@ struct SlidingSolution {
 ///     SlidingProblem problem{{1e-9}, 1e5, 0.3, {1e-5, 1e-4}};
 ///     SlidingSolution sliding = solve(problem, law, at_force(1));
 ///
-/// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
-///         NotConverged where a quadrature did not reach its tolerance
+/// throws  InvalidInput wherever steady_sliding() and regime_map() do, and for velocity ratios
+///         without an amplitude > 0; NotConverged if a quadrature did not reach its tolerance
 SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
                       const OperatingPoint& point);
-/// The same at the first operating point of a contact. On a surface each point comes from contacts
-/// solved inside the oscillation, with errors (surface_sliding()); regimes always come from the
-/// law.
-/// material  of a surface; ignored otherwise
+/// Computes steady sliding at the first operating point of a contact. For a surface each
+/// SlidingPoint comes from contacts solved inside the oscillation, with errors (surface_sliding());
+/// the regime map always comes from the law.
+/// material  material of a surface; not used for other contacts
 /// throws    NotConverged, Interrupted
 SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
                       const Material& material, const Context& context = {});
@@ -52,24 +53,26 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
 /// The final motion of a slider, its stability, and the threshold of the oscillation.
 struct SliderProblem {
   Slider slider;
-  NormalOscillation normal;         ///< amplitude 0: none; frequency 0: no thresholds
+  NormalOscillation normal;         ///< amplitude 0: no oscillation; frequency 0: no thresholds
   double friction_coefficient = 0;  ///< μ
-  /// End of the search for the threshold, m; empty: 10 times the smallest amplitude with an effect.
+  /// Upper end of the search for the threshold amplitude, m; empty: 10 times the smallest amplitude
+  /// that has an effect.
   std::optional<double> max_amplitude = {};
   SliderOptions options = {};
 };
 
-/// The motion of a slider, simulated and averaged over the oscillation, and its stability.
+/// The final motion of a slider by the full and by the averaged equation, and the stability of
+/// steady sliding.
 struct SliderSolution {
   SliderMotion motion, averaged;
-  SteadySliding sliding;  ///< at the velocity of the drive
+  SteadySliding sliding;  ///< steady sliding at the velocity of the drive
   SliderStability stability;
-  SliderThresholds thresholds;  ///< known where friction falls by more than the support damps
-  Drag judged;                  ///< motion for which assumptions are checked
+  SliderThresholds thresholds;  ///< empty unless falling_slope > support_damping
+  Drag judged;                  ///< motion for which assumptions should be checked
 };
 
-/// Simulates a slider.
-/// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat;
+/// Simulates a slider on a contact.
+/// throws  InvalidInput wherever slider_motion() does; NotConverged if a motion does not repeat;
 ///         Interrupted
 SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
                      const OperatingPoint& point);

@@ -22,15 +22,17 @@ class Transport {
   virtual int rank() const = 0;
   virtual int size() const = 0;
   virtual void broadcast(void* bytes, std::size_t count, int from) = 0;
-  /// bytes[r] of process r, one after the other in `all`.
+  /// Gathers bytes[r] bytes from each process r; `all` receives them in the order of the processes.
   virtual void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) = 0;
-  /// counts and offsets of a process, in units of `unit` bytes.
+  /// Numbers and offsets of the units (of `unit` bytes) that this process sends to, or receives
+  /// from, each process.
   struct Parts {
     std::span<const std::int64_t> counts, offsets;
   };
   virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                         const Parts& received) = 0;
-  /// Returns the processes of one group, in their order here.
+  /// Returns a Transport between the processes that pass the same group, in the order of their
+  /// ranks.
   virtual std::shared_ptr<Transport> split(int group) = 0;
 };
 
@@ -40,8 +42,8 @@ class Transport {
 /// count or an offset exceeds 2^31 − 1 units, the limit of MPI 3.
 class Exchange {
  public:
-  /// sent[r], received[r]: units to and from process r; their offsets follow each other in the
-  /// order of the processes.
+  /// sent[r], received[r]: number of units sent to and received from process r. In the buffers, the
+  /// units follow each other in the order of the processes.
   Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
 
   std::int64_t sent_units() const { return sent_offsets_.back(); }
@@ -59,10 +61,10 @@ class Exchange {
 };
 
 /// Processes that compute one surface together; a copy refers to the same processes. Every call
-/// except rank(), ranks() and is_root() is collective: all processes make it, in the same order and
-/// with the same sizes. A communicator of one process does nothing and is the only one in this
-/// library; salebra-mpi provides that of MPI.
-///     const bool all_converged = ranks.all_agree(state.converged());
+/// except rank(), size() and is_root() is collective: all processes make it, in the same order and
+/// with the same sizes. This library contains only the communicator of a single process, which does
+/// nothing; salebra-mpi provides communicators of several MPI processes.
+///     const bool all_converged = communicator.all_agree(state.converged());
 class Communicator {
  public:
   Communicator() = default;  ///< this process alone
@@ -72,20 +74,21 @@ class Communicator {
   int rank() const { return transport_ ? transport_->rank() : 0; }
   int size() const { return transport_ ? transport_->size() : 1; }
   bool is_root() const { return rank() == 0; }
-  bool alone() const { return communicator() == 1; }
+  bool alone() const { return size() == 1; }
 
   void broadcast(void* bytes, std::size_t count, int from = 0) const;
-  /// bytes[r] of process r, one after the other in `all`.
+  /// Gathers bytes[r] bytes from each process r; `all` receives them in the order of the processes.
   void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) const;
   std::vector<std::string> gather_all(const std::string& mine) const;
   /// Returns true if all processes pass true.
   bool all_agree(bool yes) const;
   /// Returns the minimum over all processes.
   double min_of(double mine) const;
-  /// from: units of this process for each other one; to: units of the others for this one. They
-  /// must not overlap.
+  /// Exchanges units between all processes. from: the units that this process sends; to: receives
+  /// the units for this process. The two buffers must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;
-  /// Returns the processes that pass the same group, >= 0, in their order here.
+  /// Returns the communicator of the processes that pass the same `group`, >= 0, in the order of
+  /// their ranks.
   Communicator split(int group) const;
 
  private:
@@ -96,22 +99,23 @@ class Communicator {
 class Groups {
  public:
   Groups() = default;  ///< this process alone, one group
-  /// Collective. Throws InvalidInput unless there are 1 … ranks groups.
+  /// Divides the processes of `all` into `count` groups. Collective. Throws InvalidInput unless
+  /// count is between 1 and all.size().
   Groups(const Communicator& all, int count);
 
   const Communicator& all() const { return all_; }
   const Communicator& own() const { return own_; }  ///< the group of this process
   int count() const { return count_; }
-  int offset() const { return offset_; }  ///< index of that group, from 0
+  int index() const { return index_; }  ///< index of the group of this process, from 0
 
  private:
   Communicator all_, own_;
-  int count_ = 1, offset_ = 0;
+  int count_ = 1, index_ = 0;
 };
 
-/// Runs body on every process and throws the failure of the first process that failed on all of
-/// them, as InvalidInput, IoError, NotConverged, Interrupted, std::bad_alloc or Error. body must
-/// not communicate. Collective.
+/// Runs body on every process. If it throws on some processes, the exception of the first of them
+/// is thrown on all processes, as InvalidInput, IoError, NotConverged, Interrupted, std::bad_alloc
+/// or Error. body must not communicate. Collective.
 void collectively(const Communicator& communicator, const std::function<void()>& body);
 
 }  // namespace salebra

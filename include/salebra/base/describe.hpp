@@ -15,23 +15,24 @@
 ///       visit(&SpotStatistics::spot_count, Quantity{"spot_count", Dimension::dimensionless,
 ///       "number of contact spots"}); …
 ///     }
-/// It calls visit(member, line) in the order of the declarations. A line is
+/// A description calls visit(member, line) for each member, in the order of the declarations. A
+/// line is
 ///     Quantity   a column: a number, a word, or a list of them, with its name, unit and meaning
 ///     Extensive  a column proportional to the nominal area; NAME_per_area is a column too
-///     WhereKnown a column that answers omit if no row has a value
+///     WhereKnown a column that solutions omit if no row has a value
 ///     Part       a described struct, whose columns are columns of this one too
 ///     Table      a list of described structs, whose columns are columns of this one too
-///     Kept       any other part of the result; without a name it is no property in Python
-/// A const member function without arguments may be a column too: it is computed and not stored. A
-/// struct with a base calls the description of the base first.
+///     Kept       any other member; without a name it does not become a property in Python
+/// A const member function without arguments may be a column too; its value is computed when
+/// needed, not stored. A struct with a base calls the description of the base first.
 namespace salebra {
 
-/// Meaning of a name that salebra uses in options, JSON and files: one meaning and one unit
-/// everywhere.
+/// Name, dimension and meaning of a quantity. A name in options, JSON and files has the same
+/// meaning and unit everywhere.
 struct Quantity {
-  std::string_view name;  ///< "decay_length"
+  std::string_view name;  ///< e.g. "decay_length"
   Dimension dimension = Dimension::dimensionless;
-  std::string_view long_name;  ///< "decay length of force with mean gap"
+  std::string_view long_name;  ///< meaning, e.g. "decay length of force with mean gap"
 };
 
 struct Extensive : Quantity {};
@@ -51,7 +52,7 @@ struct Kept {
   Dimension dimension = Dimension::dimensionless;
 };
 
-/// Describes members with an empty Kept{}.
+/// Describes several members that have neither name nor meaning (with an empty Kept{}).
 constexpr void keep(auto&& visit, auto... members) { (visit(members, Kept{}), ...); }
 
 template <class T>
@@ -84,12 +85,13 @@ void for_each_member(Visitor&& visit) {
       std::type_identity<T>{});
 }
 
-/// A number derived from a T: a member, a member function, or a function of it.
+/// A number derived from an object of type T: a member, a member function, or any function of the
+/// object.
 template <class T>
 using NumberOf = std::function<double(const T&)>;
 
-/// Calls visit(access, quantity) for every column of T, including those of its parts; access(const
-/// T&) returns its value.
+/// Calls visit(access, quantity) for every column of T, including the columns of its Parts;
+/// access(const T&) returns the value of the column.
 template <Described T, class Visitor>
 void for_each_column(Visitor&& visit) {
   describe(

@@ -16,7 +16,7 @@
 namespace salebra {
 
 template <class Enum>
-struct EnumNames;  ///< values: pairs of a value and its word
+struct EnumNames;  ///< values: pairs (value, name)
 
 /// Returns the name of a value.
 template <class Enum>
@@ -26,7 +26,7 @@ std::string_view name_of(Enum value) {
       ->second;
 }
 
-/// Returns the names of an enumeration, in its order.
+/// Returns all names of an enumeration, in the order of its EnumNames.
 template <class Enum>
 std::vector<std::string> names_of() {
   std::vector<std::string> all;
@@ -34,7 +34,8 @@ std::vector<std::string> names_of() {
   return all;
 }
 
-/// Returns the value with a name, in which '-' equals '_'; empty if there is none.
+/// Returns the value of an enumeration that has the given name ('-' and '_' count as equal); empty
+/// if there is none.
 template <class Enum>
 std::optional<Enum> parse_enum(std::string word) {
   std::ranges::replace(word, '-', '_');

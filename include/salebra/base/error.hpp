@@ -16,23 +16,24 @@ class Error : public std::runtime_error {
 };
 
 /// The caller's value or file is unusable; nothing was computed or written. The CLI exits with 2.
-/// what() is one line, "field: value constraint; remedy", without empty parts. A program that calls
-/// its fields by other names, such as options, can use the parts.
+/// what() is one line, "field: value constraint; remedy", without empty parts. A program that has
+/// other names for the fields, such as options, can compose its own message from field(), value(),
+/// constraint() and remedy().
 ///     throw InvalidInput("width", "-1", "must be > 0; leave it out for none");
 class InvalidInput : public Error {
  public:
-  /// demand: "constraint; remedy", a continuation of the value: "must be > 0; leave it out for
-  /// none".
+  /// demand: "constraint; remedy", which continues the sentence after the value, e.g. "must be > 0;
+  /// leave it out for none".
   InvalidInput(std::string_view field, std::string_view value, std::string_view demand);
-  /// Without a value, e.g. if the field is a file and the demand says what is wrong with it: "holds
-  /// no numbers".
+  /// Error without a value, e.g. if the field is a file and the demand says what is wrong with the
+  /// file: "holds no numbers".
   InvalidInput(std::string_view field, std::string_view demand) : InvalidInput(field, "", demand) {}
 
   const std::string& field() const noexcept { return parts_->field; }  ///< an argument or a file
   const std::string& value() const noexcept { return parts_->value; }
   const std::string& constraint() const noexcept { return parts_->constraint; }
   const std::string& remedy() const noexcept { return parts_->remedy; }
-  std::string statement() const;  ///< what() after the field: "value constraint; remedy"
+  std::string statement() const;  ///< what() without the field: "value constraint; remedy"
 
  private:
   struct Parts {
@@ -55,7 +56,8 @@ class NotConverged : public Error {
   using Error::Error;
 };
 
-/// A progress callback returned false and the work so far is of no use. The CLI exits with 130.
+/// A progress callback returned false, and the computation has no usable result. The CLI exits with
+/// 130.
 class Interrupted : public Error {
  public:
   using Error::Error;
@@ -71,11 +73,12 @@ void require(bool ok, std::string_view field, const T& value, std::string_view d
   throw InvalidInput(field, text.str(), demand);
 }
 
-/// Throws InvalidInput(field, demand) unless ok, for errors without a value: "given together with
-/// size_x; give one of them".
+/// Throws InvalidInput(field, demand) unless ok, for errors without a value, e.g. with the demand
+/// "given together with size_x; give one of them".
 void require_that(bool ok, std::string_view field, std::string_view demand);
 
-/// Throws InvalidInput unless exactly one of two inputs is given.
+/// Throws InvalidInput unless exactly one of two inputs is given; `field` and `other` are their
+/// names.
 void require_one(bool given, std::string_view field, bool other_given, std::string_view other);
 
 /// Throws InvalidInput unless value is > 0 and finite.

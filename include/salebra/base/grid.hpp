@@ -45,27 +45,29 @@ constexpr void describe(auto&& visit, std::type_identity<Grid2D>) {
 class RowPartition;
 
 /// Heights of the rough side, e.g. `Surface{grid, heights}`. A hill is positive; hills touch first.
-/// If a surface is distributed over processes, each has the whole grid, and `heights` has the rows
-/// of share(). Functions that accept such surfaces say so; all others throw.
+/// If a surface is distributed over processes, `grid` is the whole grid, while `heights` has only
+/// the rows of this process, as given by partition(). Functions that accept distributed surfaces
+/// say so; all other functions throw.
 struct Surface {
   Grid2D grid;
-  Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN if the instrument has no value
-  bool periodic = false;    ///< generated surfaces are, measured ones are not
-  std::string origin;       ///< file, or generator with its seed: for provenance only
-  Communicator communicator = {};  ///< processes that share its rows
+  Field heights;          ///< (nx, ny) or (partition().count(), ny), m; NaN: undefined point
+  bool periodic = false;  ///< whether the surface repeats along x and y
+  std::string origin;     ///< file, or generator with its seed; for provenance only
+  Communicator communicator = {};  ///< processes that share the rows
 
   /// Returns the distribution of rows over processes.
   RowPartition partition() const;
-  /// Returns the number of NaN heights in this process. Cost: one pass.
+  /// Returns the number of NaN heights in this process. Cost: one pass over the heights.
   Index undefined_points() const;
-  /// Throws InvalidInput if the surface is distributed. `purpose` completes "is spread over 4
-  /// processes, and <purpose> needs it whole".
+  /// Throws InvalidInput if the surface is distributed. `purpose` is a noun for the message "is
+  /// spread over 4 processes, and <purpose> needs it whole".
   void require_whole(const std::string& purpose) const;
-  /// Calls require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape
-  /// and every height is finite. `purpose` completes "undefined points cannot be used in
-  /// <purpose>".
+  /// Calls require_whole(), and throws InvalidInput unless the grid is valid, `heights` has the
+  /// shape of the grid and every height is finite. `purpose` is a noun for the message "undefined
+  /// points cannot be used in <purpose>".
   void require_complete(const std::string& purpose) const;
-  /// Checks only the rows of this process, for functions that accept distributed surfaces.
+  /// Like require_complete(), but accepts a distributed surface and checks the rows of this
+  /// process.
   void require_complete_rows(const std::string& purpose) const;
 };
 

@@ -9,18 +9,18 @@ namespace salebra {
 
 /// Progress of a long computation, reported in the calling thread.
 struct ProgressReport {
-  std::string_view stage;  ///< such as "contact", "sweep", "realisation"
-  double fraction = 0;     ///< fraction of this stage, 0 … 1; an estimate if the end is unknown
+  std::string_view stage;  ///< name of the stage, such as "contact" or "sweep"
+  double fraction = 0;     ///< finished fraction of the stage, 0 to 1; may be an estimate
   int step = 0;            ///< iterations or items done
   double residual = 0;     ///< residual of an iteration; 0 without one
 };
 
-/// Progress callback; it returns false to stop the work as soon as possible. An empty one never
-/// stops.
+/// Progress callback; it returns false to stop the computation as soon as possible. An empty
+/// callback never stops it.
 ///     const Progress progress = [](const ProgressReport& report) { return report.step < 1000; };
 using Progress = std::function<bool(const ProgressReport&)>;
 
-/// How an iteration ended; several iterations report the greatest value.
+/// How an iteration ended. A result of several iterations has the greatest (worst) value of all.
 enum class Termination {
   converged,        ///< reached its tolerance
   stalled,          ///< further iterations do not reduce the error
@@ -39,8 +39,8 @@ struct EnumNames<Termination> {
        {Termination::interrupted, "interrupted"}});
 };
 
-/// Returns a message for the user, with options in backticks: "did not reach the tolerance; raise
-/// `max_iterations`".
+/// Returns a message for the user, with options in backticks, e.g. "did not reach the tolerance;
+/// raise `max_iterations`".
 constexpr std::string_view message(Termination termination) {
   switch (termination) {
     case Termination::stalled:

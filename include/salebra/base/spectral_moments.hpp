@@ -5,11 +5,12 @@
 
 namespace salebra {
 
-/// Profile moments along both axes and their means, which hold for any direction if the surface is
-/// isotropic. They belong to a surface (measured from heights) or to a spectrum (expected):
+/// Spectral moments of profiles along x and along y, and the means of the two axes, which hold for
+/// any direction if the surface is isotropic. They are measured from the heights of a surface or
+/// expected values of a spectrum:
 ///     const double slope = surface_moments(surface).rms_slope();
 struct SpectralMoments {
-  double moment0 = 0;    ///< m0 = ⟨h²⟩ of the heights less their mean, m²
+  double moment0 = 0;    ///< m0 = ⟨h²⟩, h measured from the mean height, m²
   double moment2_x = 0;  ///< ⟨(∂h/∂x)²⟩
   double moment2_y = 0;  ///< ⟨(∂h/∂y)²⟩
   double moment4_x = 0;  ///< ⟨(∂²h/∂x²)²⟩, 1/m²

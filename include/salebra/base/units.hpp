@@ -18,7 +18,7 @@ enum class Dimension {
   length_cubed,            ///< m³; spectral density of a profile
   length_to_the_fourth,    ///< m⁴; spectral density of a surface
   inverse_length,          ///< 1/m; curvature of a surface
-  inverse_length_squared,  ///< m⁻²; spectral moment 4 and the inverse of an area
+  inverse_length_squared,  ///< 1/m²; spectral moment m4, number per area
   pressure,                ///< Pa
   inverse_pressure,        ///< 1/Pa
   force,                   ///< N
@@ -43,31 +43,31 @@ enum class Dimension {
   thermal_conductance,     ///< W/(m² K), per area
 };
 
-/// Returns the SI unit as written in files: "m", "rad/s", "1/m^2", …; "1" for dimensionless
-/// numbers.
+/// Returns the SI unit as written in files, for example "m", "rad/s" or "1/m^2"; "1" for
+/// dimensionless numbers.
 std::string_view si_unit(Dimension dimension);
 
-/// Converts "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1", to SI units. A bare
-/// number is SI. Units take the prefixes f p n u µ m c k M G T where they make sense; lengths also
+/// Converts "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1", to SI units. A number
+/// without a unit is in SI units. Units may have the prefixes f p n u µ m c k M G T; lengths also
 /// "Å", angles "deg" and "°", pressures "bar" and "N/mm^2", pure numbers "%". Powers are written
 /// mm2, mm^2 or mm².
 /// field   name of the option or key in errors
-/// throws  InvalidInput for anything but one number with a unit of the dimension, and as
-///         require_squarable
+/// throws  InvalidInput for anything except one number with a unit of the dimension, and wherever
+///         require_squarable does
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field);
 
 /// Throws InvalidInput unless the number is 0 or its magnitude is from 1e-150 to 1e150, so that a
-/// double can represent its square. text: the input as given.
+/// double can represent its square. text: the number as the user wrote it, for the message.
 void require_squarable(double value, std::string_view text, std::string_view field);
 
 /// Parses one value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
-/// progression that includes both ends exactly (from, to > 0, not equal). A unit after `to` also
-/// applies to a `from` without one: "1:100MPa:5".
+/// progression, which includes the values from and to exactly (from, to > 0, not equal). A unit
+/// after `to` also applies to a `from` without one: "1:100MPa:5".
 std::vector<double> parse_values(std::string_view text, Dimension dimension,
                                  std::string_view field);
 
-/// Formats a number with `digits` significant digits and an SI prefix if the dimension takes one:
-/// "1.234 µm", "115 GPa", "n/a" for NaN.
+/// Formats a number with `digits` significant digits and an SI prefix if its unit may have one,
+/// e.g. "1.234 µm" or "115 GPa"; "n/a" for NaN.
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
 
 }  // namespace salebra

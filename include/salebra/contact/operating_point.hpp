@@ -20,12 +20,14 @@ struct EnumNames<ControlQuantity> {
 
 /// The state in which a contact is held: a control quantity and its value.
 ///     const OperatingPoint point = at_pressure(2e6);
-/// A contact law knows forces and indentations only. A surface knows all four; a free contact has
-/// no mean gap, and with a hardness the gap depends on more than the approach.
+/// A contact law knows forces and indentations only. A surface accepts all four control quantities,
+/// with two exceptions: a free contact has no mean gap, and with a hardness the mean gap cannot be
+/// prescribed.
 struct OperatingPoint {
   ControlQuantity control = ControlQuantity::normal_force;
   double value = 0;
 
+  /// True for a force or a pressure.
   bool load_given() const {
     return control == ControlQuantity::normal_force || control == ControlQuantity::pressure;
   }
@@ -34,8 +36,8 @@ struct OperatingPoint {
 
 /// Normal force, N.
 constexpr OperatingPoint at_force(double force) { return {ControlQuantity::normal_force, force}; }
-/// Rigid approach from first touch, or a law's own indentation, m; of a periodic contact below max h
-/// − mean h.
+/// Rigid approach from first touch, m, or for a contact law its own indentation δ. For a periodic
+/// contact it must be below max h − mean h with the heights h.
 constexpr OperatingPoint at_indentation(double indentation) {
   return {ControlQuantity::indentation, indentation};
 }
@@ -43,7 +45,8 @@ constexpr OperatingPoint at_indentation(double indentation) {
 constexpr OperatingPoint at_pressure(double pressure) {
   return {ControlQuantity::pressure, pressure};
 }
-/// Mean gap ū of the deformed surfaces, m, of a periodic contact; below max h − mean h.
+/// Mean gap ū of the deformed surfaces of a periodic contact, m; it must be below max h − mean h
+/// with the heights h.
 constexpr OperatingPoint at_mean_gap(double mean_gap) {
   return {ControlQuantity::mean_gap, mean_gap};
 }
@@ -51,7 +54,7 @@ constexpr OperatingPoint at_mean_gap(double mean_gap) {
 /// Several values of one control quantity.
 struct OperatingPoints {
   ControlQuantity control = ControlQuantity::normal_force;
-  std::vector<double> values = {};  ///< N, m, Pa
+  std::vector<double> values = {};  ///< N, m or Pa, depending on control
 };
 
 }  // namespace salebra

@@ -17,39 +17,41 @@ struct SweepOptions {
   /// on_progress reports finished loads, with stage "sweep"; if it returns false, the loads
   /// finished by then are returned.
   NormalContactOptions contact = {};
-  bool stiffness =
-      true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K if G* is known
+  /// Computes K by a punch solve on each contact set, and K_t = (G*/E*)K if G* is known.
+  bool stiffness = true;
   /// Computes K_t along x by a stick solve on each contact set instead of (G*/E*)K; this needs
-  /// `stiffness`, and the bodies or Poisson's ratio.
+  /// `stiffness`, and a material with known Cerruti constants (made from the bodies or from
+  /// Poisson's ratio).
   bool stick = false;
-  /// Number of loads solved at the same time. Each needs 50 to 60 bytes per cell and uses one
-  /// thread while others wait; 1 gives all threads to one load after the other; 0 means one per
-  /// thread.
+  /// Number of loads solved at the same time. Each load solved at the same time needs 50 to 60
+  /// bytes per cell and uses one thread; 1: the loads are solved one after the other, each with all
+  /// threads; 0: as many at once as there are threads.
   int concurrent_loads = 0;
-  /// Groups of processes. Each group has the surface distributed over its processes (`ranks` of the
-  /// surface is groups->own()) and solves some of the loads in turn; all processes get all samples.
-  /// Default: one group.
+  /// Groups of processes. Each group has the surface distributed over its processes (the
+  /// communicator of the surface is groups->own()) and solves its part of the loads; all processes
+  /// get all samples. Default: one group.
   std::optional<Groups> groups = {};
   /// Called with the index in `pressures` and the state of each load as soon as it has converged,
   /// from several threads at once if loads are concurrent.
   std::function<void(std::size_t, const NormalContactState&)> on_state = {};
 };
 
-/// Converts one contact to a sample of a curve, with the stiffnesses requested in the options; it
-/// ignores concurrent loads, groups and callbacks. Collective if the surface is distributed.
+/// Converts one contact to a sample of a curve, with the stiffnesses that `options` requests; its
+/// concurrent_loads, groups and callbacks are not used. Collective if the surface is distributed.
 ForceSample force_sample(const NormalContactState& state, const Surface& surface,
                          const Material& material, const SweepOptions& options);
 
 /// Computes the force–gap curve of a surface by boundary elements:
 ///     const ForceCurve curve = sweep_pressures(surface, material, {1e6, 2e6, 5e6, 1e7});
-/// Each pressure is an independent solve, in parallel over loads: starting from its own coarse
-/// grids is not slower than starting from the neighbouring load. If the surface is distributed over
-/// processes, the call is collective and solves one load after the other. Samples do not depend on
-/// the number of processes and groups, except K and K_t of isolated surfaces, which one process
-/// solves on the cells that the contact spans. pressures: > 0, Pa, increasing. Samples that did not
-/// converge are kept and marked. With a hardness this is the curve of first loading; the unloading
-/// curve is the elastic sweep of after_first_loading() (contact/normal/first_loading.hpp). Throws
-/// InvalidInput before any work.
+/// Each pressure is solved independently of the others, in parallel over loads; starting from
+/// coarser grids is not slower than starting from the solution of a neighbouring load. If the
+/// surface is distributed over processes, the call is collective and solves one load after the
+/// other. Samples do not depend on the number of processes and groups, except for K and K_t of
+/// isolated surfaces (Boundary::free), because a single process solves these on the part of the
+/// grid that the contact spans. pressures: > 0, Pa, increasing. Samples that did not converge are
+/// kept and marked. With a hardness this is the curve of first loading; the unloading curve is the
+/// elastic sweep of after_first_loading() (contact/normal/first_loading.hpp). Throws InvalidInput,
+/// before any computation, for invalid arguments.
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options = {});
 

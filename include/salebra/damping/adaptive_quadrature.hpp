@@ -5,25 +5,26 @@
 
 namespace salebra {
 
-/// The normal contact of one body on any grid: how a shape given by a formula is refined.
+/// Returns the contact sets of one body on a given grid. It lets a shape that is given by a formula
+/// be solved on finer and finer grids.
 using ContactSetsOnGrid = std::function<ContactSets(const Grid2D& grid)>;
 
 struct AdaptiveQuadratureOptions {
-  double relative_error = 0.01;  ///< of work_per_cycle, in (0, 1)
-  Index max_points = 1024;      ///< cells along the longer side of the finest grid
+  double relative_error = 0.01;  ///< requested error of work_per_cycle, in (0, 1)
+  Index max_points = 1024;       ///< cells along the longer side of the finest grid
   int max_intervals = 128;
-  /// Direction, tolerances and progress. The search starts from its number of levels, or from half
-  /// of the default if that is 0.
+  /// Direction, tolerances and progress of each quadrature. The search starts from
+  /// quadrature.intervals, or from half of the default number of intervals if that is 0.
   IntervalQuadratureOptions quadrature = {};
 };
 
-/// One quadrature of the search.
+/// One quadrature of the search for a sufficient grid and number of intervals.
 struct QuadratureTrial {
   Grid2D grid;
   int intervals = 0;
   double work_per_cycle = 0;   ///< J
-  double stiffness_ratio = 0;  ///< to ν = 0
-  double error_estimate = 0;   ///< estimate of this quadrature alone, J
+  double stiffness_ratio = 0;  ///< work_per_cycle over that with K_t = (G*/E*)K
+  double error_estimate = 0;   ///< error by IntervalQuadratureResult, J
 };
 
 constexpr void describe(auto&& visit, std::type_identity<QuadratureTrial>) {
@@ -38,39 +39,39 @@ constexpr void describe(auto&& visit, std::type_identity<QuadratureTrial>) {
 }
 
 struct AdaptiveQuadratureResult {
-  IntervalQuadratureResult quadrature;  ///< the last one; its error_estimate is the one below
+  /// Result of the last quadrature; quadrature.error_estimate is replaced by the error_estimate of
+  /// this struct.
+  IntervalQuadratureResult quadrature;
   Grid2D grid;
   int intervals = 0;
-  /// Maximum of the last quadrature's own estimate and of the changes by the last halving of the
-  /// cells and the last doubling of the levels, J. On a given grid there is no error of the cells
-  /// in it.
+  /// Maximum of three errors of W, J: the last quadrature's own estimate, the change of W by the
+  /// last halving of the cells, and its change by the last doubling of the intervals. On a grid
+  /// that cannot be refined, the error due to the cell size is not included.
   double error_estimate = 0;
-  /// The change by the last halving of the cells, J; 0 where the grid is given.
+  /// Change of W by the last halving of the cells, J; 0 if the cells were not halved.
   double cell_error = 0;
-  bool reached = false;  ///< error_estimate <= relative_error · |W|
+  bool reached = false;  ///< whether error_estimate <= relative_error · |W|
   std::vector<QuadratureTrial> trials;
 };
 
-/// Runs level quadratures until the requested relative error is reached, starting from few levels
-/// and cells and refining the one whose last refinement changed the loss more. The contact area
-/// grows by whole cells, so the error is not smooth in their size: it is not extrapolated, and the
-/// change is taken for the error.
+/// Runs interval quadrature until the requested relative error is reached, starting from few
+/// intervals and cells. Each step refines the intervals or the cells, whichever changed the loss
+/// more when they were last refined. The contact area grows by whole cells, so the loss is not a
+/// smooth function of the cell size: its last change is taken as the error, without extrapolation.
 ///
 ///     auto loss = adaptive_interval_quadrature(contacts, grid, material, motion, 1e-8);
 ///
-/// cost  the last quadrature and about as much for those before it
-AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets, const Grid2D& grid,
-                                                   const Material& material,
-                                                   const Oscillation& motion,
-                                                   double mean_indentation,
-                                                   const AdaptiveQuadratureOptions& options = {});
+/// cost  that of the last quadrature, and about as much again for all earlier quadratures
+AdaptiveQuadratureResult adaptive_interval_quadrature(
+    const ContactSetsOnGrid& contact_sets, const Grid2D& grid, const Material& material,
+    const Oscillation& motion, double mean_indentation,
+    const AdaptiveQuadratureOptions& options = {});
 
-/// The same on a grid that cannot be refined, such as that of a measured surface: only the number
-/// of levels is chosen.
-AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                                   const Material& material,
-                                                   const Oscillation& motion,
-                                                   double mean_indentation,
-                                                   const AdaptiveQuadratureOptions& options = {});
+/// Runs adaptive interval quadrature on a grid that cannot be refined, such as that of a measured
+/// surface: only the number of intervals is chosen.
+AdaptiveQuadratureResult adaptive_interval_quadrature(
+    const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+    const Oscillation& motion, double mean_indentation,
+    const AdaptiveQuadratureOptions& options = {});
 
 }  // namespace salebra

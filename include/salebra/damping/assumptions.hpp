@@ -13,8 +13,9 @@
 #include <string>
 #include <vector>
 
-/// The assumptions behind a damping constant without slip. Each is checked against the limits at
-/// which the loss changes by 5 % and by 20 % (docs/theory.md, section 8).
+/// The assumptions behind a damping constant without slip. Each assumption is checked against two
+/// limits: the values at which its violation changes the loss by 5 % and by 20 % (docs/theory.md,
+/// section 8).
 namespace salebra {
 
 /// Contact parameters that the law and the motion do not contain. NaN: not known.
@@ -23,19 +24,22 @@ struct ContactParameters {
   double friction_coefficient = unknown;  ///< μ > 0
   double hardness = unknown;              ///< H > 0, Pa
   double density = unknown;               ///< ρ > 0, kg/m³
-  /// X > 0, m. Case (a): the largest tangential displacement from the mean, u_x by default. Case
-  /// (b): the distance between the turning points of the slow motion, velocity times duration.
+  /// Excursion X > 0, m. Case (a), EqualFrequency: the largest tangential displacement from the
+  /// mean, u_x by default. Case (b), Drag: the distance between the turning points of the slow
+  /// motion, its velocity times its duration from one turning point to the next.
   double excursion = unknown;
   double contact_modulus = unknown;  ///< E* > 0, Pa
   double dundurs = unknown;          ///< Dundurs' β; default: one elastic body with G*/E*
-  /// a at the deepest indentation, m: the radius of one contact, or the side of a rough surface.
+  /// Size a of the contact at the deepest indentation, m: its radius for one contact, the side of
+  /// the surface for a rough surface.
   double loaded_size = unknown;
-  double nominal_pressure = unknown;       ///< F over the nominal area, or over the one contact, Pa
-  double max_pressure = unknown;       ///< Pa
+  double nominal_pressure = unknown;  ///< F over the nominal area or that of the one contact, Pa
+  double max_pressure = unknown;      ///< largest contact pressure, Pa
   double mean_contact_pressure = unknown;  ///< F over contact area at the deepest indentation, Pa
   double rms_slope = unknown;              ///< h', rms slope of a rough surface
-  /// Largest F of a previous plastic loading, N, with pressures up to the hardness; the law is then
-  /// that of the residual surface (contact/normal/first_loading.hpp).
+  /// Largest normal force of an earlier plastic first loading, N, in which pressures reached the
+  /// hardness. The law of the contact must then be that of the residual surface
+  /// (contact/normal/first_loading.hpp).
   double first_load = unknown;
 };
 
@@ -63,23 +67,24 @@ constexpr void describe(auto&& visit, std::type_identity<ContactParameters>) {
            "normal force of a plastic first loading, whose residual surface the law is of", force});
 }
 
-/// Adds the contact parameters that an indenter or the curve behind the law determines: E*, the
-/// nominal pressure at the mean indentation, and the size and contact pressure at the deepest
-/// indentation, which decide on plasticity and inertia. curve may be nullptr.
-ContactParameters at_state(ContactParameters parameters, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation, double deepest);
+/// Adds to `parameters` those that follow from an indenter law or from the curve of a tabulated
+/// law: E*, the nominal pressure at the mean indentation `indentation`, and the contact size and
+/// contact pressure at the indentation `deepest`, which decide on plasticity and inertia. curve may
+/// be nullptr.
+ContactParameters at_state(ContactParameters parameters, const ContactLaw& law,
+                           const ForceCurve* curve, double indentation, double deepest);
 
-/// Returns the radius of a typical contact patch, m: for an indenter that of its one contact; for a
-/// curve 2E*A/(πK), since patches of radius a have K = 2E*Σa and A = πΣa². NaN where E* or K is not
-/// known.
-double spot_radius(const ContactParameters& parameters, const ContactLaw& law, const ForceCurve* curve,
-                   double indentation);
+/// Returns the radius of a typical contact patch, m. For an indenter it is the radius of its one
+/// contact. For a curve it is 2E*A/(πK) with the contact area A, since circular patches of radius a
+/// have K = 2E*Σa and A = πΣa². NaN where E* or K is not known.
+double spot_radius(const ContactParameters& parameters, const ContactLaw& law,
+                   const ForceCurve* curve, double indentation);
 
 enum class Verdict {
-  holds,     ///< within the limit of 5 %
-  doubtful,  ///< between the limits
-  broken,    ///< beyond the limit of 20 %
-  unknown    ///< a parameter is missing: Assumption::needs
+  holds,     ///< the value is within the 5 % limit
+  doubtful,  ///< the value is between the 5 % and the 20 % limit
+  broken,    ///< the value is beyond the 20 % limit
+  unknown    ///< a parameter is missing, named by Assumption::needs
 };
 template <>
 struct EnumNames<Verdict> {
@@ -90,18 +95,21 @@ struct EnumNames<Verdict> {
                                                            {Verdict::unknown, "unknown"}});
 };
 
-/// One checked assumption. One that does not apply has the verdict `holds` and no numbers.
+/// One checked assumption. An assumption that does not apply to the motion has the verdict `holds`
+/// and no numbers.
 struct Assumption {
   double value = ContactParameters::unknown;
-  /// NaN: the loss does not change by this much at any value that the law covers, or a parameter is
-  /// missing that the limit depends on.
+  /// Values at which the loss changes by 5 % and by 20 %. NaN: the loss does not change by this
+  /// much at any value that the law covers, or a parameter on which the limit depends is missing.
   double limit_5_percent = ContactParameters::unknown;
   double limit_20_percent = ContactParameters::unknown;
-  /// For plasticity, replaces both limits: the value at which yielding starts. Its effect on the
-  /// loss is not known. NaN for the other assumptions.
+  /// For plasticity, replaces both limits: the value at which yielding starts. The effect of
+  /// yielding on the loss is not known. NaN for all assumptions except plasticity.
   double onset = ContactParameters::unknown;
   Verdict verdict = Verdict::unknown;
-  std::string needs = {};  ///< missing member of ContactParameters, or "drag_velocity"; empty: none
+  /// Name of the missing member of ContactParameters, "drag_velocity" or "angular_frequency"; empty
+  /// if nothing is missing.
+  std::string needs = {};
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Assumption>) {
@@ -121,16 +129,16 @@ constexpr void describe(auto&& visit, std::type_identity<Assumption>) {
 
 /// Extent of slip in a contact.
 enum class Regime {
-  no_slip,       ///< both slip assumptions hold: the loss without slip is right to 5 %
-  partial_slip,  ///< some springs slip, while others that carry a part of the force stick
+  no_slip,       ///< both assumptions of no slip hold: slip changes the loss by at most 5 %
+  partial_slip,  ///< some springs slip, others that carry part of the force stick
   /// All springs slip except those that carry less than 5 % of the smallest normal force. If the
-  /// contact opens in each cycle, sliding means that no spring ever sticks: case (b) from
-  /// v_c = (μ/g) u_z ω on. Below v_c, case (b) counts as sliding only if slip of closed springs
-  /// loses more than the relaxation of those that open; otherwise its force grows with velocity, as
-  /// for a damper.
+  /// contact opens in each cycle, sliding means that no spring ever sticks; in case (b) this
+  /// happens at velocities v >= v_c = (μ/g) u_z ω with g = K_t/K. For v < v_c, case (b) counts as
+  /// sliding only if the slip of closed springs loses more energy than the relaxation of springs
+  /// that open; otherwise the tangential force grows with velocity, as for a damper.
   sliding,
-  /// A parameter is missing, or the excursion of case (b) is shorter than the distance per normal
-  /// cycle, and the motion is not slow.
+  /// A parameter is missing; or the excursion of case (b) is shorter than the distance travelled
+  /// per normal cycle, so that the motion is not slow.
   unknown
 };
 template <>
@@ -142,184 +150,170 @@ struct EnumNames<Regime> {
                                                           {Regime::unknown, "unknown"}});
 };
 
-/// Largest motion that keeps the slip assumptions to 5 % with a coefficient of friction.
-struct LargestMotion {
+/// Largest motion at which slip with a given coefficient of friction changes the loss by at most 5
+/// %.
+struct MaxMotion {
   double friction_coefficient = ContactParameters::unknown;
-  /// Limit for springs that open: v of case (b), m/s, otherwise u_x, m.
+  /// Limit set by springs that open and close: the velocity v of case (b), m/s; for other motions
+  /// the tangential amplitude u_x, m.
   double drag_velocity = ContactParameters::unknown;
   double tangential_amplitude = ContactParameters::unknown;
   double excursion =
       ContactParameters::unknown;  ///< limit of X for closed springs, m; 0: no slow motion
 };
 
-constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
-  using S = LargestMotion;
+constexpr void describe(auto&& visit, std::type_identity<MaxMotion>) {
+  using S = MaxMotion;
   visit(&S::friction_coefficient, quantity::friction_coefficient);
   visit(&S::drag_velocity, quantity::drag_velocity);
   visit(&S::tangential_amplitude, quantity::tangential_amplitude);
   visit(&S::excursion, quantity::excursion);
 }
 
-/// The seven assumptions behind a loss, as assumptions_of() checks them. With g = K_t/K of the law at
-/// the mean indentation, the spring at depth ζ may be stretched by (μ/g)(δ − ζ). Springs with
-/// ζ > δ0 − u_z open and close during the cycle; the others stay closed.
+/// The seven assumptions behind a loss, as assumptions_of() checks them. With g = K_t/K of the law
+/// at the mean indentation δ0, friction limits the stretch of the spring at depth ζ to (μ/g)(δ −
+/// ζ). Springs with ζ > δ0 − u_z open and close during the cycle; springs with a smaller ζ stay
+/// closed. Case (a) is EqualFrequency, case (b) is Drag with velocity v; W is the loss per normal
+/// cycle.
 struct Assumptions {
-  /// value   M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, larger is better.
-  /// limits  computed from the springs of the law. (a) M at which the loss with slip differs by 5 %
-  ///         from that without; all springs count, because the slip of opening and of closed
-  ///         springs partly cancels at some phases. (b) The same for opening springs only.
+  /// value   friction number M = μ u_z/(g u_x), in case (b) M = μ u_z ω/(g v); dimensionless,
+  ///         larger is better.
+  /// limits  computed from the springs of the law. Case (a): the M at which the loss with slip
+  ///         differs from the loss without slip by 5 %, over all springs, because the effects of
+  ///         slip in opening and in closed springs partly cancel at some phases. Case (b): the same
+  ///         over the opening springs only.
   Assumption slip_of_opening_springs;
-  /// value   X, m.
-  /// limits  (a) u_x at the limit above. (b) X at which slip of the closed springs loses 5 % of the
-  ///         relaxation loss over the same path there and back at velocity v, for many normal
-  ///         cycles and turning points at the smallest indentation:
+  /// value   excursion X, m.
+  /// limits  Case (a): the u_x at which M of slip_of_opening_springs is at its limit. Case (b): the
+  ///         X at which slip of the closed springs loses 5 % of the relaxation loss over the same
+  ///         path there and back at velocity v, for many normal cycles and for turning points at
+  ///         the smallest indentation:
   ///             ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv),  e = (μ/g)(δ0 − u_z − ζ),
   ///         with r the mean rise of a closed spring's stretch in a normal cycle: πv/ω for v ≪ v_c,
   ///         (μ/g)u_z from v_c on. 0 where X would be shorter than the distance per normal cycle:
   ///         no slow motion at this velocity satisfies the assumption.
   Assumption slip_of_closed_springs;
-  /// value   X/w, with w = 2πv/ω the distance of case (b) per normal cycle; larger is better. For
-  ///         other motions the verdict is `holds`, without a value.
-  /// limits  computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the
-  ///         loss, with k = K_t(δ0 + u_z cos θ) − K_t(δ0 − u_z); this is 0.44 w/X for constant
-  ///         K_t'. At least 1: below that, a spring need not touch at all on one straight path.
+  /// value   normal cycles per excursion, X/w, in case (b), where the body advances by w = 2πv/ω
+  ///         per normal cycle; larger is better. For motions other than case (b) the verdict is
+  ///         `holds`, without a value.
+  /// limits  computed: a turning point at a random phase changes the loss by the fraction (1/π)∫θ²k
+  ///         dθ/∫θk dθ · w/X, integrated over θ from 0 to π, with k = K_t(δ0 + u_z cos θ) − K_t(δ0
+  ///         − u_z); for constant K_t' this fraction is 0.44 w/X. The limit is at least 1: with
+  ///         less than one normal cycle per excursion, a spring may not touch at all between two
+  ///         turning points.
   Assumption slow_motion;
   /// value   u_z, m.
-  /// limits  computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the
-  ///         theorem at finite amplitude, mean indentation held. A loss at finite amplitude does
-  ///         not need this assumption.
+  /// limits  computed: the u_z at which Eq. (12), (15) or (16), which are proportional to u_z,
+  ///         differs by 5 % from the exact loss at finite amplitude (docs/theory.md, section 7) at
+  ///         a constant mean indentation. Amplitude::finite does not need this assumption.
   Assumption amplitude;
-  /// value   at the deepest indentation δ0 + u_z, the largest of those that are known: max
-  ///         pressure/H, 1.5 mean contact pressure/H (for a paraboloid), E*h'/H.
-  /// onset   0.6, beyond which the verdict is doubtful (yielding begins below the surface at 1.6
-  ///         yield stresses, H = 2.8; Greenwood and Williamson's ψ); beyond 1 it is broken. After a
-  ///         first loading the value is the force at δ0 + u_z over the first load, and the onset is
-  ///         1: below it the residual surface is elastic. Within 2 %, the accuracy of the law's
-  ///         force, the value is set to 1.
+  /// value   the largest of these numbers, as far as they are known, at the deepest indentation δ0
+  ///         + u_z: maximum pressure/H, 1.5 mean contact pressure/H (for a paraboloid), and E*h'/H,
+  ///         with the hardness H and the rms slope h'.
+  /// onset   0.6: above it the verdict is doubtful, because yielding begins below the surface at a
+  ///         pressure of 1.6 yield stresses, and H is 2.8 yield stresses (Greenwood and
+  ///         Williamson's plasticity index has the same limit). Above 1 the verdict is broken.
+  ///         After a plastic first loading the value is F(δ0 + u_z) over the largest force of the
+  ///         first loading, and the onset is 1: at smaller forces the residual surface is elastic.
+  ///         A value within 2 % of 1, the accuracy of the law's force, is set to 1.
   Assumption plasticity;
-  /// value   ω a/c_s at δ0 + u_z, with c_s = √(G/ρ) of one elastic body with the law's G*/E*.
-  /// limits  estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so 0.55 and 1.1
-  ///         change |K| by 5 and 20 %. In case (a) they are lower where waves carry away 5 % of the
-  ///         loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
+  /// value   ω a/c_s, with the contact size a at the indentation δ0 + u_z and the shear wave speed
+  ///         c_s = √(G/ρ) of one elastic body with the law's G*/E*.
+  /// limits  estimated: a stuck circular contact has the dynamic stiffness K(1 + 0.58i ωa/c_s), so
+  ///         ωa/c_s of 0.55 and 1.1 changes its magnitude by 5 and 20 %. In case (a) the limits are
+  ///         lower if waves carry away 5 or 20 % of the loss at smaller ωa/c_s; the energy of the
+  ///         waves is π·0.58 (ωa/c_s) u_x² K_t²/(2G*a) per cycle.
   Assumption inertia;
-  /// value   fraction of the loss that the coupling of pressure and traction changes, the largest
-  ///         of direct simulations: 3.2|β|^2.62 for an indenter (12 and 52 % at β of ν = 0.3 and 0)
-  ///         and 1.16|β|^2.69 for other contacts (4 and 18 %). Unknown in case (b), which was never
-  ///         computed.
-  /// limits  0.05 and 0.2.
+  /// value   relative change of the loss by the coupling of pressure and traction, a fit to the
+  ///         largest changes found in direct simulations: 3.2|β|^2.62 for an indenter (12 % for ν =
+  ///         0.3, 52 % for ν = 0) and 1.16|β|^2.69 for other contacts (4 % and 18 %), with Dundurs'
+  ///         β. Unknown in case (b), for which no simulation was made.
+  /// limits  a change of 0.05 and of 0.2.
   Assumption coupling;
 
   Regime regime = Regime::unknown;
 
-  /// For the known μ, otherwise for μ = 0.1, 0.3 and 1.
-  std::vector<LargestMotion> largest;
-};
-
-/// Description of one assumption: the condition and the value in a user's words, with {} for the
-/// 5 % limit and for the value, the remedy where it fails, and the dimension of both numbers.
-struct AssumptionWords : Kept {
-  std::string_view assumption, here, remedy;
-  Dimension value_dimension = Dimension::dimensionless;
+  /// Largest motions without slip: one entry for the known μ, otherwise entries for μ = 0.1, 0.3
+  /// and 1.
+  std::vector<MaxMotion> largest;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Assumptions>) {
-  using enum Dimension;
   using S = Assumptions;
   visit(&S::slip_of_opening_springs,
-        AssumptionWords{{"slip_of_opening_springs", "slip where the contact opens and closes"},
-                     "no slip where it opens and closes: M above {}",
-                     "M = {}",
-                     "use the loss with slip, which `friction_coefficient` gives"});
-  visit(&S::slip_of_closed_springs,
-        AssumptionWords{{"slip_of_closed_springs", "slip where it stays closed"},
-                     "no slip where it stays closed: excursion below {}",
-                     "{}",
-                     "use the loss with slip, which `friction_coefficient` gives",
-                     length});
-  visit(&S::slow_motion, AssumptionWords{{"slow_motion", "slow tangential motion"},
-                                      "slow: at least {} normal cycles in an excursion",
-                                      "{}",
-                                      "a longer `excursion`, or the two frequencies as they are"});
-  visit(&S::amplitude, AssumptionWords{{"amplitude", "small amplitude of Eqs (12), (15) and (16)"},
-                                    "Eqs (12), (15) and (16): amplitude below {}",
-                                    "{}",
-                                    "the damping constant itself has no such limit",
-                                    length});
-  visit(&S::plasticity, AssumptionWords{{"plasticity", "plasticity"},
-                                     "elastic: pressure on spots below {} of the hardness",
-                                     "{} at peak",
-                                     "less load; a surface with `hardness` is loaded first"});
-  visit(&S::inertia, AssumptionWords{{"inertia", "inertia"},
-                                  "quasi-static: ωa/c_s below {}",
-                                  "{} at peak",
-                                  "a lower `frequency`, or a smaller part of the contact"});
-  visit(&S::coupling, AssumptionWords{{"coupling", "coupling"},
-                                   "pressure and traction uncoupled: {} of the loss",
-                                   "{}",
-                                   "the coupled cycle in three dimensions computes it"});
+        Kept{"slip_of_opening_springs", "slip where the contact opens and closes"});
+  visit(&S::slip_of_closed_springs, Kept{"slip_of_closed_springs", "slip where it stays closed"});
+  visit(&S::slow_motion, Kept{"slow_motion", "slow tangential motion"});
+  visit(&S::amplitude, Kept{"amplitude", "small amplitude of Eqs (12), (15) and (16)"});
+  visit(&S::plasticity, Kept{"plasticity", "plasticity"});
+  visit(&S::inertia, Kept{"inertia", "inertia"});
+  visit(&S::coupling, Kept{"coupling", "coupling"});
   visit(&S::regime, Kept{"regime", "no slip, partial slip, sliding or unknown"});
   visit(&S::largest, Kept{"largest",
                           "largest motions that keep the assumptions of slip to 5 %, of the "
                           "coefficient of friction that is known or of 0.1, 0.3 and 1"});
 }
 
-struct AssumptionName : AssumptionWords {
-  Assumption Assumptions::*assumption;
-};
-std::span<const AssumptionName> assumption_names();
-
 /// Checks the assumptions of a motion about the mean indentation δ0, m
 /// (DampingResult::indentation).
 ///
-///     Assumptions assumptions = assumptions_of(law, result.indentation, motion, {.hardness = 6e9});
+///     Assumptions assumptions =
+///         assumptions_of(law, result.indentation, motion, {.hardness = 6e9});
 ///
-/// A table is continued beyond its ends by exponentials with the F/K there. With an unknown
-/// Drag::drag_velocity (NaN) the largest allowed one is found.
-/// throws  InvalidInput for parameters that are not > 0, for a nominal pressure above the hardness,
-///         and as relaxation_damping()
+/// A tabulated law is continued beyond the first and last indentation of its table by exponentials
+/// with the decay length F/K at that indentation. If Drag::drag_velocity is NaN, the function finds
+/// the largest velocity that the assumptions allow.
+/// throws  InvalidInput for contact parameters that are not > 0, for a nominal pressure above the
+///         hardness, and wherever relaxation_damping() does
 /// cost    about 10 ms and 10⁴ evaluations of the law
-Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
-                     const ContactParameters& parameters = {});
-/// The same for two frequencies, as case (a) over the common period; without one, slip is unknown.
-Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
-                     const ContactParameters& parameters = {});
-/// The same for a sampled path about the middle of its indentations, with u_z and u_x half its
-/// ranges; a path with drift is case (b) with its mean velocity.
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation,
+                           const Oscillation& motion, const ContactParameters& parameters = {});
+/// Checks the assumptions of a motion with two frequencies, as for case (a) but over the common
+/// period of the two; without a common period, the slip assumptions are unknown.
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation,
+                           const TwoFrequencies& motion, const ContactParameters& parameters = {});
+/// Checks the assumptions of a sampled path. The mean indentation is the middle of the path's range
+/// of indentations; u_z and u_x are half its ranges of indentation and displacement. A path with
+/// drift counts as case (b) with its mean velocity.
 Assumptions assumptions_of(const ContactLaw& law, const SampledMotion& path,
-                     const ContactParameters& parameters = {});
+                           const ContactParameters& parameters = {});
 
 /// Computes the loss of a law with slip: Coulomb's law holds for each of the springs that lose
 /// energy without slip.
 ///
 ///     Loss loss = loss_with_slip(law, result.indentation, Drag{1e-9, 1e-6, 1e5}, 0.3, 1e-5);
 ///
-/// Case (b) without an excursion is sliding without reversal, in which all springs slip. With an
-/// excursion the result is the mean over the cycles there and back and over the phases of the
-/// turning points, to first order in the distance per cycle over the excursion.
-/// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
+/// A Drag (case (b)) without an excursion is sliding without reversal, in which all springs slip.
+/// With an excursion the result is the mean loss per normal cycle over one path there and back and
+/// over all phases of the turning points, to first order in (distance per normal cycle)/excursion.
+/// throws  InvalidInput for a coefficient of friction or an excursion that is not > 0, and wherever
+///         relaxation_damping() does
 Loss loss_with_slip(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                     double friction_coefficient, double excursion = ContactParameters::unknown);
 
-/// Regimes of case (b) over velocity and excursion of the slow motion, computed from the springs of
-/// the law.
+/// Slip regimes of a Drag, case (b), over velocity and excursion of the slow motion, computed from
+/// the springs of the law.
 struct RegimeMap {
   std::vector<double> velocity;   ///< v, m/s
   std::vector<double> excursion;  ///< X, m
-  /// (velocities, excursions), as Assumptions::regime.
+  /// Regime for each velocity and, inside, each excursion, as Assumptions::regime.
   std::vector<std::vector<Regime>> regime;
-  /// W over W without slip (velocities, excursions), mean of a normal cycle there and back; NaN
-  /// where X is shorter than the distance per cycle, and where nothing is lost without slip.
+  /// Loss with slip over loss without slip, shape (velocities, excursions); both are means per
+  /// normal cycle over one path there and back. NaN where X is shorter than the distance per normal
+  /// cycle, and where nothing is lost without slip.
   Field loss_ratio;
-  Field slip_ratio;  ///< part of it from springs that stay closed
-  /// Largest X without slip at each velocity, m; 0: none, NaN: all.
+  Field slip_ratio;  ///< part of loss_ratio from springs that stay closed
+  /// Largest excursion X without slip at each velocity, m; 0: slip at every X; NaN: every X is
+  /// without slip.
   std::vector<double> no_slip_excursion;
-  double no_slip_velocity = ContactParameters::unknown;  ///< largest v without slip, m/s; NaN: any
-  double sliding_excursion =
-      ContactParameters::unknown;  ///< X from which the contact slides, m; NaN: it opens in each cycle
-  double critical_velocity =
-      ContactParameters::unknown;  ///< v_c = (μ/g) u_z ω, m/s: above it nothing sticks
-  /// W without slip over its small-amplitude form, Eq. (15), or (16) for an exponential law; times
-  /// loss_ratio it is the loss over that equation.
+  /// Largest velocity v without slip of springs that open and close, m/s; NaN: no slip at any v.
+  double no_slip_velocity = ContactParameters::unknown;
+  /// Excursion X above which the contact slides, m; NaN where it opens in each cycle.
+  double sliding_excursion = ContactParameters::unknown;
+  /// v_c = (μ/g) u_z ω with g = K_t/K, m/s: above it no spring sticks.
+  double critical_velocity = ContactParameters::unknown;
+  /// Loss without slip over its small-amplitude form, Eq. (15), or Eq. (16) for an exponential law.
+  /// Multiplied by loss_ratio it gives the loss with slip over that small-amplitude form.
   double full_stick_ratio = ContactParameters::unknown;
 };
 
@@ -335,7 +329,7 @@ constexpr void describe(auto&& visit, std::type_identity<RegimeMap>) {
         Kept{"loss_ratio",
              "energy dissipated over that without slip (velocities, excursions); NaN where the "
              "excursion is shorter than the way in one normal cycle"});
-  visit(&S::slip_ratio, Kept{"slip_ratio", "part of it from levels that stay closed"});
+  visit(&S::slip_ratio, Kept{"slip_ratio", "part of it from springs that stay closed"});
   visit(&S::no_slip_excursion,
         Kept{"no_slip_excursion",
              "largest excursion without slip at each velocity; 0: none, NaN: all", length});
@@ -354,8 +348,8 @@ constexpr void describe(auto&& visit, std::type_identity<RegimeMap>) {
 ///
 ///     RegimeMap map = regime_map(law, result.indentation, {1e-9, 1e5}, {1e-6, 1e-5}, {1e-5}, 0.3);
 ///
-/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is
-///         not > 0, and as relaxation_damping()
+/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a coefficient of
+///         friction that is not > 0, and wherever relaxation_damping() does
 /// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and
 ///         excursion
 RegimeMap regime_map(const ContactLaw& law, double mean_indentation,
@@ -365,10 +359,10 @@ RegimeMap regime_map(const ContactLaw& law, double mean_indentation,
 /// Whether a result can be used. The words are the same on the terminal, in JSON and result files,
 /// in the report and in Python.
 enum class Validity {
-  valid,            ///< all assumptions hold: they change the loss by at most 5 %
-  valid_with_care,  ///< one or more are between their limits of 5 and 20 %
-  not_valid,        ///< one or more are beyond their limit of 20 %
-  not_checked       ///< those that could be checked hold, and others could not be checked
+  valid,            ///< all assumptions hold: each error of the loss is at most 5 %
+  valid_with_care,  ///< an assumption is between its limits of 5 and 20 %
+  not_valid,        ///< an assumption is beyond its limit of 20 %
+  not_checked       ///< some assumptions could not be checked; all others hold
 };
 template <>
 struct EnumNames<Validity> {
@@ -378,58 +372,5 @@ struct EnumNames<Validity> {
        {Validity::not_valid, "not valid"},
        {Validity::not_checked, "not checked"}});
 };
-
-/// An assumption in words, judged over all cases of a result.
-struct AssumptionVerdict {
-  std::string name = {};       ///< name of the member of Assumptions
-  Verdict verdict = {};        ///< verdict of the worst case; unknown ranks after doubtful
-  std::string assumption = {};  ///< "slow: at least 8.74 normal cycles in an excursion"
-  std::string here = {};       ///< "2, at 2.04 MPa to 102 MPa"; "`hardness` not given"
-  std::string remedy = {};     ///< what to do; empty where it holds
-};
-
-constexpr void describe(auto&& visit, std::type_identity<AssumptionVerdict>) {
-  using S = Condition;
-  visit(&S::name, Kept{"name", "name of the assumption"});
-  visit(&S::verdict, Kept{"verdict", "holds, doubtful, broken or unknown"});
-  visit(&S::assumption, Kept{"assumption", "what must hold for the loss to change by less than 5 %"});
-  visit(&S::here, Kept{"here", "what holds in the worst case"});
-  visit(&S::remedy, Kept{"remedy", "what to do; empty where it holds"});
-}
-
-/// Returns the name of the argument that supplies the contact parameter named by Assumption::needs.
-std::string given_as(const std::string& parameter);
-
-/// Returns the assumptions of a damping constant in words, worst first; `cases` is a
-/// std::vector<Assumptions> here.
-///
-///     std::vector<AssumptionVerdict> verdicts = verdicts_of(cases, false, pressures);
-///
-/// pressures      of the cases, Pa, which the text then names; empty: it counts the cases
-/// slip_followed  the loss includes slip, so slip is no assumption; but a contact in gross sliding
-///                is not a damper
-/// The small amplitude of the closed forms is not included: see closed_form_verdict().
-std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, bool slip_followed,
-                                     std::span<const double> pressures = {});
-
-/// Returns the additional assumption of Eqs (12), (15) and (16): a small amplitude.
-Condition closed_form_verdict(std::span<const Assumptions> cases,
-                                std::span<const double> pressures = {});
-
-/// Returns the validity by the worst assumption.
-Validity validity_of(std::span<const AssumptionVerdict> verdicts);
-
-/// Formats one line per assumption, "  !   slow: at least … here 2, …", of at most 78 columns, with
-/// the remedy below it where it does not hold. Names of parameters are in backticks.
-std::string in_words(std::span<const AssumptionVerdict> verdicts);
-
-/// Formats the regimes of the cases, "partial slip at 1 MPa to 5 MPa, sliding at 20 MPa"; empty
-/// where none is known.
-std::string regimes_in_words(std::span<const Assumptions> cases,
-                             std::span<const double> pressures = {});
-
-/// Formats the largest motions without slip of the least tolerant case, "no excursion (µ up to
-/// 0.3), 89.6 pm at 5.75 µm/s (µ = 1)"; empty where none is known.
-std::string motion_without_slip(std::span<const Assumptions> cases);
 
 }  // namespace salebra

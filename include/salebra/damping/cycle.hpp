@@ -27,39 +27,41 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSetAt>) {
   visit(&ContactSetAt::converged, Kept{"converged", "whether the contact converged"});
 }
 
-/// Pressures of the same contact.
+/// Pressure field of the frictionless normal contact at one indentation.
 struct PressureAt {
   Field contact_pressure;  ///< (nx, ny), Pa
   double force = 0;        ///< F, N
   bool converged = true;
 };
 
-/// The normal contact as a function of the indentation δ, m. It must be deterministic: it is called
-/// once for each δ.
+/// The frictionless normal contact as a function of the indentation δ, m: its contact set, or its
+/// pressures. The function must be deterministic: it is called once for each δ.
 using ContactSets = std::function<ContactSetAt(double indentation)>;
 using PressureFields = std::function<PressureAt(double indentation)>;
 
-/// Computes the normal contact of a surface by boundary elements; no contact for δ <= 0. The
-/// boundary of `options` must be that of the tangential solves. The function keeps a copy of the
-/// surface.
+/// Computes the normal contact of a surface by boundary elements; no contact for δ <= 0.
+/// options.boundary must be the boundary used for the tangential solves. The returned function
+/// keeps a copy of the surface.
 ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
-                                      const NormalContactOptions& options = {});
+                                          const NormalContactOptions& options = {});
 PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options = {});
 
-/// A motion over t = 0 … 1, closed except for a constant tangential advance.
+/// One period of a motion over the time t from 0 to 1 (in periods). It returns to its start, except
+/// that x may have advanced; every period then advances by the same distance.
 struct Trajectory {
   std::function<double(double t)> indentation;  ///< δ, m
   std::function<double(double t)> tangential;   ///< x, m
-  /// T, N: the body moves to where F_x is T; replaces `tangential`, which is left empty. Only for
-  /// simulate_frictional_cycle.
+  /// Prescribed tangential force T, N: the body moves to the x at which F_x = T. It replaces
+  /// `tangential`, which is then left empty. Only simulate_frictional_cycle accepts it.
   std::function<double(double t)> tangential_force = {};
 };
 
-/// Returns one period of an oscillation about a mean indentation, between two minima of it.
+/// Returns one period of an oscillation about a mean indentation, from one minimum of the
+/// indentation to the next.
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 
-/// The state after one step; work and losses count from the start of the period.
+/// The state after one step; work and dissipated energy count from the start of the period.
 struct CycleSample {
   double t = 0;
   double indentation = 0;       ///< δ, m
@@ -67,14 +69,14 @@ struct CycleSample {
   double tangential_force = 0;  ///< F_x, N
   double normal_force = 0;      ///< F, N
   double work = 0;              ///< ∫F_x dx, J
-  double dissipated = 0;    ///< energy of cells that leave the contact; with friction ∫τ·ds, J
+  double dissipated = 0;  ///< elastic energy released by leaving cells; with friction ∫τ·ds, J
   double contact_area = 0;  ///< m²
   double slip_area = 0;     ///< area of cells at their friction limit, m²
-  /// K_t of the contact set in full stick, along the motion, N/m; NaN with friction.
+  /// K_t of the contact set in full stick, in the direction of motion, N/m; NaN with friction.
   double tangential_stiffness = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The time comes first.
+/// The first column is the time.
 constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
   using enum Dimension;
   using S = CycleSample;
@@ -90,16 +92,16 @@ constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
   visit(&S::tangential_stiffness, quantity::tangential_stiffness);
 }
 
-/// The history of a stuck contact: the displacement at which each of its cells is held.
+/// The history of a contact in full stick: the displacement at which each of its cells is held.
 struct StuckState {
-  ContactSet contact;                                ///< current contact set
-  TangentialField displacement;                      ///< of the cells in contact, m; 0 elsewhere
-  TangentialField traction;                          ///< Pa
-  TangentialField unit_traction;                     ///< stick traction per unit displacement of
-                                                     ///< the body, Pa/m
-  double work = 0;                                   ///< of the period, J
-  double released = 0;                               ///< of the period, J
-  Termination termination = Termination::converged;  ///< of all solves
+  ContactSet contact;             ///< current contact set
+  TangentialField displacement;   ///< displacement of cells in contact, m; otherwise 0
+  TangentialField traction;       ///< Pa
+  TangentialField unit_traction;  ///< stick traction per unit displacement of
+                                  ///< the body, Pa/m
+  double work = 0;                ///< ∫F_x dx of the period, J
+  double released = 0;            ///< energy released in the period, J
+  Termination termination = Termination::converged;  ///< worst of all solves
   long iterations = 0;
   long fft_count = 0;
 };
@@ -124,66 +126,72 @@ struct CycleState;  // cycle_state.hpp
 struct CycleOptions {
   /// μ >= 0, for simulate_frictional_cycle and simulate_coupled_cycle; infinite: full stick.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  int steps = 64;       ///< steps in a period, >= 4
-  int max_periods = 6;  ///< limit; fewer where a period loses the same as the one before it
-  /// A period repeats if work_per_cycle differs by less than this from the previous one;
-  /// relative, > 0.
+  int steps = 64;       ///< steps per period, >= 4
+  int max_periods = 6;  ///< fewer if a period loses the same as the previous one
+  /// A period counts as steady if its work_per_cycle differs from that of the previous period by
+  /// less than this fraction; > 0.
   double steady_tolerance = 1e-5;
   double direction = 0;  ///< angle of the tangential motion against x, rad
   /// β/(πE*) for simulate_coupled_cycle, 1/Pa; default: coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// Options of the tangential solves, relative to the tangential motion; work and dissipation
-  /// agree to about this tolerance.
+  /// Options of the tangential solves. The tolerance is relative to the range of the tangential
+  /// motion; work_per_cycle and dissipated agree to about this tolerance.
   StickOptions stick = {.tolerance = 1e-8};
   Progress on_progress = {};
-  /// Receives a copy of the state after the sample of each step.
+  /// Called after each step with a copy of the state, for restarts.
   std::function<void(CycleState)> on_state = {};
-  /// Continues from this state, which is read before the first step. It must come from the same
-  /// function, contact, grid, material, trajectory and options.
+  /// Continues from this state, which the simulation copies before its first step. It must come
+  /// from a run of the same function with the same contact, grid, material, trajectory and options.
   const CycleState* resume = nullptr;
 };
 
-/// A simulated period.
+/// Results of a simulation, for its last period.
 struct CycleResult {
-  /// ∮F_x dx minus the change of the stored energy, J; with coupling also ∮F dδ. Cells that enter
-  /// during a step count from the moment they enter.
+  /// Energy lost in the period, J: ∮F_x dx minus the change of the stored elastic energy; with
+  /// coupling plus ∮F dδ. A cell that enters the contact during a step does work from the moment it
+  /// enters.
   double work_per_cycle = 0;
-  /// The loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the contact,
-  /// or with friction ∮∫τ·ds.
+  /// The loss computed independently as a sum over the cells, J: without slip ½∫τ·[u] dA over cells
+  /// that leave the contact, where [u] is the displacement by which a cell snaps back; with
+  /// friction the work ∮∫τ·ds dA of the tractions along the slip s.
   double dissipated = 0;
-  /// The two parts of `dissipated`, J: loss in cells that open and close, which becomes the paper's
-  /// relaxation loss as μ → ∞, and in cells in permanent contact, which becomes Mindlin's slip loss
-  /// as u_z → 0. friction_map() splits by the springs of the method of dimensionality reduction
-  /// instead of cells: the totals agree, the parts differ. For a cone at 90° and
-  /// M = μE*u_z/(G*u_x) = 0.3, relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
+  /// The two parts of `dissipated`, J: relaxation_work is the loss in cells that open and close,
+  /// which becomes the paper's relaxation loss as μ → ∞; slip_work is the loss in cells in
+  /// permanent contact, which becomes Mindlin's slip loss as u_z → 0. friction_map() assigns the
+  /// loss to springs of the method of dimensionality reduction instead of cells: its total agrees,
+  /// its two parts differ. Example: for a cone at a phase of 90° and the friction number M =
+  /// μE*u_z/(G*u_x) = 0.3, relaxation_work over the loss without slip is 0.50 by cells and 0.32 by
+  /// springs.
   double relaxation_work = 0;
   double slip_work = 0;
   double normal_work = 0;  ///< ∮F dδ, part of work_per_cycle, J; 0 without coupling
-  /// The part of normal_work from gaps that close and open within one step, J
-  /// (CoupledContact::gap_work); 0 without coupling. work_per_cycle = dissipated + gap_work to the
-  /// solvers' tolerance.
+  /// The part of normal_work that the finite steps assign to gaps closing or opening within one
+  /// step, J (CoupledContact::gap_work); 0 without coupling. work_per_cycle = dissipated + gap_work
+  /// within the tolerance of the solvers.
   double gap_work = 0;
-  /// Estimated error of work_per_cycle due to the steps, J, without the discretisation error of the
-  /// cells; see simulate_cycle. NaN with friction.
+  /// Estimated error of work_per_cycle due to the finite steps, J, as explained at simulate_cycle;
+  /// it does not include the error due to the cell size. NaN with friction.
   double step_error = std::numeric_limits<double>::quiet_NaN();
-  double stored_energy_change = 0;  ///< over the period, J; not 0 where the contact advances
-  double contact_area_min = 0;      ///< m²
-  double contact_area_max = 0;      ///< m²
-  Field loss;  ///< energy lost per period and unit area, (nx, ny), J/m², where friction wears;
+  double stored_energy_change = 0;  ///< over the period, J; not 0 if the body advances
+  double contact_area_min = 0;      ///< smallest of the period, m²
+  double contact_area_max = 0;      ///< largest of the period, m²
+  Field loss;  ///< frictional energy loss per period and unit area, (nx, ny), J/m²;
                ///< empty without slip
-  ContactSet smallest, largest;      ///< cells in contact always, and at some time
+  ContactSet smallest, largest;      ///< cells in contact always, and at some time, of a period
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
   long iterations = 0;  ///< total of all tangential solves
-  long fft_count = 0;   ///< pairs of scalar fields
-  bool steady = false;  ///< the period repeats
-  /// Worst outcome of all solves; unless converged, do not use the numbers.
+  long fft_count = 0;   ///< forward-and-backward transforms of a scalar field
+  bool steady = false;  ///< whether the last period repeats the one before it
+  /// Worst outcome of all solves; unless it is `converged`, the numbers must not be used.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
-  /// Relative difference of the sum over cells from work_per_cycle: 0 up to the solvers' tolerance.
+  /// Relative difference between dissipated + gap_work and work_per_cycle; 0 up to the tolerance of
+  /// the solvers.
   double balance() const { return (dissipated + gap_work - work_per_cycle) / work_per_cycle; }
-  /// (nx, ny): 0 never in contact, 1 during a part of the cycle, 2 always.
+  /// Field (nx, ny): 0 for cells never in contact, 1 for cells in contact during a part of the
+  /// cycle, 2 for cells always in contact.
   Field contact_map() const { return smallest.cast<double>() + largest.cast<double>(); }
 };
 
@@ -225,12 +233,13 @@ constexpr void describe(auto&& visit, std::type_identity<CycleResult>) {
                                   "0 never in contact, 1 during a part of the cycle, 2 always"});
 }
 
-/// Effect of slip on a cycle; NaN where nothing is lost without it.
+/// Effect of slip on a cycle. over_stick is NaN where nothing is lost without slip.
 struct SlipEffect {
-  double over_stick = 0;             ///< W over W without slip
-  double mean_tangential_force = 0;  ///< W over the distance of a drag, N; NaN for a motion that
-                                     ///< returns
-  double mean_force = 0;             ///< mean normal force, N
+  double over_stick = 0;  ///< loss per cycle over the loss without slip
+  /// Loss per cycle over the distance that a Drag advances per cycle, N; NaN for a motion that
+  /// returns to its start.
+  double mean_tangential_force = 0;
+  double mean_force = 0;  ///< mean normal force, N
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SlipEffect>) {
@@ -243,11 +252,12 @@ constexpr void describe(auto&& visit, std::type_identity<SlipEffect>) {
   visit(&S::mean_force, quantity::mean_force);
 }
 
-/// Relative effect of the coupling on a cycle with friction; NaN where the reference is 0.
+/// Effect of the normal–tangential coupling on a cycle with friction, relative to the cycle without
+/// coupling; NaN where the number without coupling is 0.
 struct CouplingEffect {
   double work_change = 0;
-  double force_change = 0;             ///< largest change over the cycle, over the largest force
-  double tangential_force_change = 0;  ///< the same for the tangential force
+  double force_change = 0;             ///< largest change of F over the largest F
+  double tangential_force_change = 0;  ///< largest change of F_x over the largest F_x
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CouplingEffect>) {
@@ -262,7 +272,7 @@ constexpr void describe(auto&& visit, std::type_identity<CouplingEffect>) {
                  "relative change of the tangential force by the coupling"});
 }
 
-/// Returns one quantity of all samples.
+/// Returns one member of every sample of a cycle.
 inline std::vector<double> column(const CycleResult& cycle, double CycleSample::*value) {
   std::vector<double> values;
   for (const CycleSample& sample : cycle.samples) values.push_back(sample.*value);
@@ -275,48 +285,57 @@ inline std::vector<double> column(const CycleResult& cycle, double CycleSample::
 ///     CycleResult cycle =
 ///         simulate_cycle(contacts, surface.grid, material, trajectory_of(motion, 1e-8));
 ///
-/// A period is divided into steps t_k. The contact set is A(δ(t_k)) while x goes from its value at
-/// t_{k−1/2} to that at t_{k+1/2}; a set changed at either end would shift φ0 by half a step.
-///     move     the cells of A move with the body: Δτ = Δx · (stick traction of A)
-///     release  cells that leave have τ = 0; the others are solved again with fixed displacements
-///     entry    a cell enters with the displacement it has, and moves with the body from then on
+/// A period is divided into steps at the times t_k. While x moves from its value at t_{k−1/2} to
+/// its value at t_{k+1/2}, the contact set is A(δ(t_k)). (A contact set taken at the start or the
+/// end of this interval would shift the phase φ0 by half a step.) Each step consists of three
+/// parts:
+///     move     the cells of A move with the body: Δτ = Δx · (stick traction of A per unit
+///              displacement)
+///     release  cells that leave the contact get τ = 0; the tractions of the remaining cells are
+///              solved again with their displacements fixed
+///     entry    a cell enters with the displacement that it has, and moves with the body from then
+///              on
 /// If the trajectory starts, stress-free, at its minimum indentation, the first period is already
-/// the steady one. Contacts are solved at indentations rounded to 1e-9 of the sweep, each once, so
-/// the way down reuses those of the way up. The error of the steps is of second order, −h²/24 of W,
-/// h = 2π/steps, for K_t' = const and equal frequencies; a second term accounts for the unknown
-/// time within a step at which each cell enters. step_error covers both with W = ½∮s² dK_t from the
-/// K_t of the same contact sets (no further solve). With Δ the change of this W when every second
-/// set is left out, and σ its standard deviation if each cell entered at any time of its step,
-/// step_error is max(|Δ|, |Δ|/3 + 2σ) plus the difference of this W from the simulated one. It is
-/// the error against infinitely many steps on the same cells; cells that are too large change both
-/// alike.
-/// cost    per step a stick solve, and another where cells leave
-/// memory  that of the stick solves, and half a byte per cell and step
+/// steady. Indentations are rounded to 1e-9 of their range, and each contact is solved once, so
+/// that unloading reuses the contacts of loading. The error due to finite steps has two parts. The
+/// first is of second order: −h²/24 of W, h = 2π/steps, for constant K_t' and equal frequencies.
+/// The second comes from the unknown time within a step at which each cell enters. step_error
+/// covers both parts. It uses the loss W_K = ½∮s² dK_t of the springs, computed from the K_t of the
+/// same contact sets without further solves. Let Δ be the change of W_K when every second contact
+/// set is left out, and σ the standard deviation of W_K if each cell entered at a random time of
+/// its step; then step_error is max(|Δ|, |Δ|/3 + 2σ) plus the difference between W_K and the
+/// simulated W. It estimates the difference from infinitely many steps on the same cells, and does
+/// not include the error due to the cell size.
+/// cost    per step a stick solve, and a second one if cells leave the contact
+/// memory  that of the stick solves, plus half a byte per cell and step
 CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});
 
-/// Simulates a cycle with Coulomb friction, at second order in the steps (SlidingContact). Without
-/// drift it starts stress-free, and the permanent contact settles within two or three periods. With
-/// drift and a finite μ it starts from steady sliding at the first indentation: where that is the
-/// minimum, the first period is the steady one, as for the springs (docs/theory.md, section 8). A
-/// tangential force is met to 1e-7 of its largest value, by a secant search at each step. Throws
-/// InvalidInput where it is not below μF: the contact slides there.
-/// cost  per step a partial-slip solve, and another where cells enter; four to six times that for a
-///       force
+/// Simulates a cycle with Coulomb friction, with an error of second order in the step length
+/// (SlidingContact). Without drift (x returns to its start) the contact starts stress-free, and the
+/// cells in permanent contact reach their steady state within two or three periods. With drift and
+/// a finite μ the contact starts from steady sliding at the first indentation: if that is the
+/// minimum indentation, the first period is already steady (docs/theory.md, section 8). A
+/// prescribed tangential force is reached to 1e-7 of its largest value, by a secant search at each
+/// step. Throws InvalidInput where that force is not below μF, because the contact slides as a
+/// whole.
+/// cost  per step a partial-slip solve, and a second one if cells enter; four to six times as much
+///       for a prescribed tangential force
 CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options = {});
 
 /// Simulates a cycle with the coupling of normal and tangential directions (Dundurs' β): in each
-/// step pressures and tractions are iterated together, and F does work over a cycle too. The
-/// difference from simulate_frictional_cycle is the error of neglecting the coupling, as the paper
-/// does. The contact is loaded from first touch in steps/4 increments without tangential motion, so
-/// it has the radial tractions of first loading. work_per_cycle = dissipated + gap_work to the
-/// sweeps' tolerance; gap_work comes from the trapezoidal ∫F dδ of cells that enter or leave with a
-/// gap, and measures the steps. δ >= 0 counts from first touch of the undeformed bodies; the
-/// boundaries of both solves must agree.
-/// cost  per step 5 to 10 sweeps of a normal solve and partial-slip solves
+/// step pressures and tractions are iterated together, and the normal force also does work over a
+/// cycle. The difference from simulate_frictional_cycle is the error of neglecting the coupling, as
+/// the paper does. The contact is loaded from first touch in steps/4 increments without tangential
+/// motion, so it has the radial tractions of first loading. work_per_cycle = dissipated + gap_work
+/// within the tolerance of the iteration. gap_work is the part of ∫F dδ, by the trapezoidal rule,
+/// of cells that have a gap at one end of a step; it vanishes for small steps and so measures
+/// whether the steps are small enough. The indentation δ >= 0 is measured from first touch of the
+/// undeformed bodies. contact.boundary and options.stick.boundary must agree.
+/// cost  per step 5 to 10 iterations, each with a normal solve and one or two partial-slip solves
 CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
                                    const Trajectory& trajectory, const CycleOptions& options = {},
                                    const NormalContactOptions& contact = {});

@@ -10,22 +10,23 @@
 
 namespace salebra {
 
-/// A restart point of a cycle: from it the simulation continues with the same bits.
+/// A restart point of a simulated cycle: a simulation continued from it gives bit-identical
+/// results.
 ///
 ///     options.on_state = [&](CycleState state) { saved = std::move(state); };
 struct CycleState {
   int period = 0;                ///< periods finished
-  int step = 0;                  ///< index of the last sample, 0 … steps
+  int step = 0;                  ///< index of the last sample, from 0 to CycleOptions::steps
   ContactSet smallest, largest;  ///< cells in contact at every, and at any step of the period so
                                  ///< far
   double tangential = 0;         ///< x of the trajectory, m
-  double energy_at_period_start = 0;       ///< stored, J
+  double energy_at_period_start = 0;       ///< stored elastic energy, J
   double work_at_period_start = 0;         ///< ∫F_x dx, J
   double normal_work_at_period_start = 0;  ///< ∫F dδ, J
   double gap_work_at_period_start = 0;     ///< J
-  Field loss_at_period_start;              ///< (nx, ny), J in each cell; empty where nothing slips
-  double last_work = 0;                    ///< work_per_cycle of the period before, J
-  std::vector<CycleSample> samples;        ///< of the period
+  Field loss_at_period_start;              ///< (nx, ny), J in each cell; empty without slip
+  double last_work = 0;                    ///< work_per_cycle of the previous period, J
+  std::vector<CycleSample> samples;        ///< samples of the current period
   std::variant<StuckState, SlidingState, CoupledState> body;
 };
 

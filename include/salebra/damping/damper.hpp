@@ -7,8 +7,8 @@
 #include <salebra/damping/dissipation.hpp>
 #include <vector>
 
-/// Under slow shear, a contact under fast normal oscillation is a linear damper, tuned by the
-/// vibration amplitude.
+/// Under slow tangential motion, a contact with a fast normal oscillation is a linear damper whose
+/// damping constant is tuned by the amplitude of the normal oscillation.
 namespace salebra {
 
 /// A fast normal oscillation of a contact.
@@ -17,25 +17,28 @@ struct NormalOscillation {
   double angular_frequency = 0;  ///< ω > 0, rad/s
 };
 
-/// A mass on a spring and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.
+/// A mass m held by a spring k and by the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0, with the
+/// damping constant γ of the contact and its smallest tangential stiffness K_t,min in a cycle.
 struct TangentialOscillator {
   double mass = 0;              ///< m > 0, kg
-  double spring_stiffness = 0;  ///< k >= 0, N/m, without the contact's own stiffness
+  double spring_stiffness = 0;  ///< k >= 0, N/m, without the stiffness of the contact
 };
 
 struct OscillatorDecay {
   double damping_constant = 0;  ///< γ, N s/m
-  double contact_stiffness =
-      0;  ///< K_t(δ0 − u_z), of the springs that never separate, N/m; 0 where the contact opens
+  /// K_t,min = K_t(δ0 − u_z), stiffness of the springs that never separate, N/m; 0 where the
+  /// contact opens.
+  double contact_stiffness = 0;
   double natural_frequency = 0;  ///< ω0 = √((k + K_t,min)/m), rad/s
   double damping_ratio = 0;      ///< ζ = γ/(2mω0); >= 1: no oscillation
   double quality_factor = 0;     ///< 1/(2ζ)
-  double decay_time =
-      0;  ///< time in which the amplitude falls by e, 2m/γ for ζ < 1, otherwise the slower of two,
-          ///< s
+  /// Time in which the amplitude falls to 1/e, s: 2m/γ for ζ < 1; for ζ >= 1 the time of the slower
+  /// of the two exponential decays.
+  double decay_time = 0;
   double logarithmic_decrement = 0;  ///< 2πζ/√(1 − ζ²); NaN for ζ >= 1
-  /// ω0/ω, which the description assumes to be small. The relative error is about its square, and
-  /// larger near a simple fraction.
+  /// ω0/ω, natural over normal frequency. A linear damper describes the contact only if this ratio
+  /// is small; the relative error is about its square, and larger if the ratio is near a simple
+  /// fraction.
   double frequency_ratio = 0;
 };
 
@@ -62,22 +65,23 @@ constexpr void describe(auto&& visit, std::type_identity<OscillatorDecay>) {
 ///
 ///     OscillatorDecay decay = oscillator_decay(law, at_force(1), {1e-9, 1e5}, {.mass = 1});
 ///
-/// Throws InvalidInput as relaxation_damping(), and for an oscillator without mass or without any
-/// stiffness.
+/// Throws InvalidInput wherever relaxation_damping() does, and for an oscillator without mass or
+/// without any stiffness.
 OscillatorDecay oscillator_decay(const ContactLaw& law, const OperatingPoint& point,
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options = {});
 
-/// The same for a known γ and K_t(δ0 − u_z).
+/// Computes the decay from a known damping constant and a known contact stiffness K_t(δ0 − u_z);
+/// angular_frequency is that of the normal oscillation.
 OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffness,
                                  double angular_frequency, const TangentialOscillator& oscillator);
 
-/// The damping constant over normal amplitudes × angular frequencies.
+/// Damping constant for each pair of normal amplitude and angular frequency.
 struct DamperMap {
   std::vector<double> normal_amplitude;   ///< m
   std::vector<double> angular_frequency;  ///< rad/s
-  Field damping_constant;                 ///< γ (amplitudes, frequencies), N s/m
+  Field damping_constant;                 ///< γ, shape (amplitudes, frequencies), N s/m
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DamperMap>) {
@@ -92,19 +96,21 @@ constexpr void describe(auto&& visit, std::type_identity<DamperMap>) {
         Kept{"damping_constant", "damping constant (amplitudes, frequencies)", damping});
 }
 
-/// Computes the map. At each amplitude γ is exactly a constant over ω, so each is computed once.
+/// Computes γ for all pairs of normal amplitude and angular frequency. At each amplitude γ is
+/// exactly proportional to 1/ω, so the loss is computed once for each amplitude.
 DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
                      const std::vector<double>& normal_amplitudes,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options = {});
 
 /// Returns the smallest normal amplitude, m, at which γ >= falling_slope. It estimates, without
-/// slip, the oscillation that prevents stick–slip of a slider whose friction force falls with
-/// velocity, F_f = F_0 − bv, with b = falling_slope > 0, N s/m: for small disturbances of steady
-/// sliding this is a damping constant of −b. NaN where no amplitude up to max_amplitude
-/// suffices: under a dead weight γ has a maximum over u_z.
+/// slip, the oscillation that prevents stick–slip of a slider whose friction force falls with its
+/// velocity v by b = falling_slope > 0, N s/m: for small disturbances of steady sliding such a
+/// friction force acts like a damping constant of −b. NaN if no amplitude up to max_amplitude (m)
+/// suffices; under a constant mean force (a dead weight) γ has a maximum as a function of the
+/// amplitude.
 double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
-                             double angular_frequency, double falling_slope,
-                             double max_amplitude, const DampingOptions& options = {});
+                             double angular_frequency, double falling_slope, double max_amplitude,
+                             const DampingOptions& options = {});
 
 }  // namespace salebra

@@ -14,13 +14,13 @@
 
 namespace salebra {
 
-/// Returns the indentation δ at an operating point, on the law's own scale, m. A law has no area and
-/// no gap: InvalidInput for a pressure or a mean gap.
+/// Returns the indentation δ at an operating point, m, measured as the law measures it. Throws
+/// InvalidInput for a pressure or a mean gap, because a law has no area and no gap.
 double indentation_of(const ContactLaw& law, const OperatingPoint& point);
 
 enum class Amplitude {
   small,  ///< Eq. (12) or (15) with F'' of the law: the limit u_z → 0
-  finite  ///< the theorem of docs/theory.md, section 7, exact at every amplitude
+  finite  ///< exact at every amplitude (docs/theory.md, section 7)
 };
 
 template <>
@@ -30,13 +30,13 @@ struct EnumNames<Amplitude> {
 };
 
 struct DampingOptions {
-  /// Hold::indentation: the operating point is the mean indentation of the cycle. Hold::force: the cycle
-  /// mean of F equals the force at the operating point (F(δ) where an indentation is given). At
-  /// Amplitude::small the two coincide.
+  /// Hold::indentation: the operating point gives the mean indentation of the cycle. Hold::force:
+  /// the cycle mean of F equals the force at the operating point (F(δ) if the point is given by an
+  /// indentation δ). At Amplitude::small both choices give the same loss.
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
-  double tolerance = 1e-10;   ///< relative, for the quadrature of W; 1e-13 … 1e-2
-  Progress on_progress = {};  ///< used by the overload for many cases; a stop throws Interrupted
+  double tolerance = 1e-10;   ///< relative error of the quadrature of W; 1e-13 to 1e-2
+  Progress on_progress = {};  ///< used if several cases are computed; a stop throws Interrupted
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
@@ -44,28 +44,30 @@ constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
        &DampingOptions::on_progress);
 }
 
-/// The loss of one contact under one motion, and the state about which it oscillates.
+/// The loss of one contact under one motion, and the state about which the contact oscillates.
 struct DampingResult : Loss {
-  double power = unknown;                 ///< P = Wω/2π, W; NaN where the motion has no ω
-  double normal_stiffness = unknown;      ///< K at the mean indentation, N/m
-  double tangential_stiffness = unknown;  ///< K_t there, N/m; γ is the damper in parallel
-  double force_curvature = unknown;       ///< F'' at the mean indentation, N/m²
-  double force = unknown;                 ///< F at the mean indentation, N
-  double mean_force = unknown;            ///< cycle mean of F at finite amplitude, N
-  double indentation = unknown;           ///< mean indentation of the cycle, m
-  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* operating point, J. It does not include the shift of
-  /// the mean indentation by Hold::force.
+  double power = unknown;             ///< mean power P = Wω/2π, W; NaN if ω is unknown
+  double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
+  /// K_t at the mean indentation, N/m. K_t and the damper γ act in parallel.
+  double tangential_stiffness = unknown;
+  double force_curvature = unknown;  ///< F'' at the mean indentation, N/m²
+  double force = unknown;            ///< F at the mean indentation, N
+  double mean_force = unknown;       ///< cycle mean of F at finite amplitude, N
+  double indentation = unknown;      ///< mean indentation of the cycle, m
+  /// Loss by Eq. (12) or (15) of the paper with (G*/E*)F'' at the *given* operating point, J. It
+  /// does not include the shift of the mean indentation that Hold::force causes.
   double small_amplitude_work = unknown;
-  double tangential_curvature =
-      unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
-                ///< own
-  /// Known where a friction loop is followed step by step, N/m and dimensionless; NaN otherwise.
+  /// K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has its own K_t.
+  double tangential_curvature = unknown;
+  /// Stiffness in phase with the motion, N/m, and loss factor. Known only if the friction loop was
+  /// computed step by step; NaN otherwise.
   double storage_stiffness = unknown, loss_factor = unknown;
   double error_estimate = unknown;  ///< error of work_per_cycle, J: quadrature and round-off only
-  bool converged =
-      false;  ///< whether the quadratures reached the tolerance; false: do not use work_per_cycle
+  /// Whether the quadratures reached the tolerance; if false, work_per_cycle must not be used.
+  bool converged = false;
 
-  /// Sets the loss and what follows from it to NaN, except the numbers without slip.
+  /// Sets the loss and the numbers computed from it (such as power and damping constant) to NaN;
+  /// the numbers without slip stay.
   void forget();
 };
 
@@ -94,12 +96,14 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
 }
 
 /// Computes the energy lost per cycle, and γ, from the contact law alone:
-///     W = ½∮ s² dK_t,  s = x_out − x_in at each spring depth, in by-parts forms of K_t alone:
-///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
-///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// with δ(θ) = δ0 + u_z cosθ. The quadrature is adaptive and breaks at first touch, so the contact
-/// may open during the cycle. It assumes no slip, contact sets that grow with δ, and quasi-static
-/// motion.
+///     W = ½∮ s² dK_t,
+/// where s is the displacement of the body between the moments at which the spring at a given depth
+/// touches and separates. Integration by parts leaves K_t alone:
+///     EqualFrequency (a): W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
+///     Drag (b):           W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
+/// with δ(θ) = δ0 + u_z cosθ. The quadrature is adaptive and treats first touch as a break point,
+/// so the contact may open during the cycle. The formula assumes no slip, contact sets that grow
+/// with δ, and quasi-static motion.
 ///
 ///     DampingResult result = relaxation_damping(law, at_force(1), Drag{1e-9, 1e-6, 1e5});
 ///
@@ -109,15 +113,18 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
 DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const Oscillation& motion, const DampingOptions& options = {});
 
-/// The same for two frequencies: W over their common period of p normal cycles is
+/// Computes the loss of a motion with two frequencies. W over their common period of p normal
+/// cycles is
 ///     W = 2u_x² S r ∫_0^π sin(2rθ) [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// with r = ω_x/ω_z and S = closed_form::frequency_ratio_phase_sum(). Without a common period
-/// work_per_cycle is NaN and power is the mean power, with S/p = 1/2; small_amplitude_work and
-/// error_estimate are then means per normal cycle.
+/// with r = ω_x/ω_z, δ(θ) = δ0 + u_z cosθ and S = closed_form::frequency_ratio_phase_sum(). If the
+/// frequencies have no common period, work_per_cycle is NaN and power is the mean power over
+/// infinitely many cycles, computed with S/p = 1/2; small_amplitude_work and error_estimate are
+/// then means per normal cycle.
 DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const TwoFrequencies& motion, const DampingOptions& options = {});
 
-/// One point of a damping curve over force, amplitude, frequency, velocity or phase.
+/// One case of a parameter study, for example one point of a damping curve over force, amplitude,
+/// frequency, velocity or phase.
 struct DampingCase {
   OperatingPoint point;
   Oscillation motion;
@@ -128,9 +135,10 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
                                               std::span<const DampingCase> cases,
                                               const DampingOptions& options = {});
 
-/// The same for a force-controlled normal motion, F = F0 + F_a cosωt with 0 <= F_a <= F0. A table
-/// must cover the whole range of F. motion.normal_amplitude is not used; indentation is that at F0,
-/// mean_force is F0, and small_amplitude_work is Eq. (12) or (15) with u_z = F_a/K.
+/// Computes the loss of a force-controlled normal motion, F = F0 + F_a cosωt with F0 = mean_force,
+/// F_a = force_amplitude and 0 <= F_a <= F0. A tabulated law must cover the whole range of F.
+/// motion.normal_amplitude is not used. In the result, indentation is that at F0, mean_force is F0,
+/// and small_amplitude_work is Eq. (12) or (15) with u_z = F_a/K.
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options = {});
@@ -139,13 +147,14 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
                                                   const TwoFrequencies& motion,
                                                   const DampingOptions& options = {});
 
-/// Returns the mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not
-/// cover the cycle.
+/// Returns the mean of F over a cycle of the indentation, δ0 + u_z cosθ, N, with δ0 =
+/// mean_indentation and u_z = normal_amplitude. Throws InvalidInput where the law does not cover
+/// the cycle.
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double normal_amplitude);
 
 /// Returns the mean indentation δ0 at which the cycle mean of F is mean_force: a dead weight
-/// settles there under the oscillation. Throws InvalidInput where no such cycle fits into the law's
-/// range.
+/// settles there under the oscillation. Throws InvalidInput if no cycle with this mean force fits
+/// into the range of the law.
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double normal_amplitude);
 
 }  // namespace salebra

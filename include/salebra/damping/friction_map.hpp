@@ -11,18 +11,18 @@
 namespace salebra {
 
 struct FrictionMapOptions {
-  int steps = 1000;  ///< straight steps per cycle; W(μ)/W(∞) converges at second order in them
+  int steps = 1000;  ///< straight steps per cycle; the error is of second order in 1/steps
   Progress on_progress = {};
 };
 
-/// Validity of the paper's "infinite" friction at equal frequencies: losses over the full-stick
-/// loss at the same u_z, u_x and phase.
+/// How far the paper's assumption of infinite friction holds at equal frequencies: the loss with
+/// friction over the loss in full stick (W(∞)) at the same u_z, u_x and phase.
 struct FrictionMap {
   std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
   std::vector<double> phase;            ///< φ0, rad
   Field loss_ratio;                     ///< W(μ)/W(∞), (friction numbers, phases)
-  Field relaxation_ratio;               ///< part of it from springs that open and close
-  Field slip_ratio;                     ///< part of it from slip in permanent contact
+  Field relaxation_ratio;               ///< part of loss_ratio from springs that open and close
+  Field slip_ratio;                     ///< part of loss_ratio from slip in permanent contact
 };
 
 constexpr void describe(auto&& visit, std::type_identity<FrictionMap>) {
@@ -37,14 +37,13 @@ constexpr void describe(auto&& visit, std::type_identity<FrictionMap>) {
         Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"});
 }
 
-/// Computes the losses for all friction numbers and phases, in parallel. Phases with sin φ0 = 0
-/// have no relaxation loss and give NaN.
+/// Computes the loss ratios for all friction numbers M = μE*u_z/(G*u_x) and phases φ0, in parallel.
+/// Phases with sin φ0 = 0 have no relaxation loss and give NaN.
 ///
 ///     FrictionMap map = friction_map(law, 1e-8, 1e-9, 1e-10, {0.3, 1, 3, 10}, {1.57});
 ///
-/// Cost: steps × 2 for each entry.
-/// Throws InvalidInput for friction numbers < 0, amplitudes that are not > 0, and motion outside
-/// the law.
+/// Cost: two cycles of `steps` steps for each entry. Throws InvalidInput for friction numbers < 0,
+/// amplitudes that are not > 0, and a motion that leaves the range of the law.
 FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double normal_amplitude,
                          double tangential_amplitude, const std::vector<double>& friction_numbers,
                          const std::vector<double>& phases, const FrictionMapOptions& options = {});

@@ -7,30 +7,30 @@
 namespace salebra {
 
 struct IntervalQuadratureOptions {
-  int intervals = 0;        ///< contacts; 0: 16 for equal frequencies, 32 for drag; otherwise >= 4
+  int intervals = 0;     ///< contacts solved, >= 4; 0: 16 for EqualFrequency, 32 for Drag
   double direction = 0;  ///< angle of the tangential motion against x, rad
   StickOptions stick = {.tolerance = 1e-5};
   Progress on_progress = {};
 };
 
-/// The loss of a cycle from a few contact sets.
+/// The loss of a cycle, computed from a few contact sets.
 struct IntervalQuadratureResult {
-  /// W with K_t = ρ(δ)(G*/E*)F'(δ), J: F' comes from F and K of the contacts, and ρ from
-  /// K_t/((G*/E*)K) of each. Both stiffnesses of a contact use the same cells, so the resolution of
-  /// the contact's edge cancels in ρ.
+  /// Loss W with K_t = ρ(δ)(G*/E*)F'(δ), J. F' is fitted to the F and K of the solved contacts, and
+  /// ρ to their ratios K_t/((G*/E*)K). K_t and K of a contact use the same cells, so the error from
+  /// resolving the contact edge by whole cells cancels in ρ.
   double work_per_cycle = 0;
   double error_estimate =
       0;  ///< error of work_per_cycle, J: scatter of ρ, and F' against the given K of the contacts
-  double work_by_intervals = 0;        ///< W by parts from the given K_t of the contacts, J
-  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', from normal contacts alone, J
-  double small_amplitude_work = 0;  ///< Eq. (12) or (15) with F'' of the same fit, J
+  double work_by_intervals = 0;     ///< W from the unfitted K_t of the contacts, J
+  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', without tangential solves, J
+  double small_amplitude_work = 0;  ///< W by Eq. (12) or (15) with F'' of the fit of F, J
   double force = 0;                 ///< F at the mean indentation, N
-  double force_curvature = 0;       ///< F'' there, N/m²
+  double force_curvature = 0;       ///< F'' at the mean indentation, N/m²
   double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force
-  ForceCurve curve;                 ///< the solved contacts; K_t is that along the motion
-  long iterations = 0;              ///< of all linear solves on contact sets
-  long fft_count = 0;
-  /// Worst outcome of all contacts; unless converged, do not use the numbers.
+  ForceCurve curve;                 ///< the solved contacts, with K_t in the direction of motion
+  long iterations = 0;              ///< iterations of all stick and punch solves
+  long fft_count = 0;               ///< forward-and-backward transforms of a scalar field
+  /// Worst outcome of all contact solves; unless it is `converged`, the numbers must not be used.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -42,8 +42,8 @@ constexpr void describe(auto&& visit, std::type_identity<IntervalQuadratureResul
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::error_estimate, quantity::error_estimate);
   visit(&S::work_by_intervals,
-        Kept{"work_by_intervals", "the same from the tangential stiffness of the levels as they are",
-             energy});
+        Kept{"work_by_intervals",
+             "the same from the tangential stiffness of the levels as they are", energy});
   visit(&S::work_by_force,
         Quantity{"work_by_force", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"});
   visit(&S::small_amplitude_work, quantity::small_amplitude_work);
@@ -51,28 +51,30 @@ constexpr void describe(auto&& visit, std::type_identity<IntervalQuadratureResul
   visit(&S::force_curvature, quantity::force_curvature);
   visit(&S::stiffness_ratio,
         Quantity{"stiffness_ratio", dimensionless, "work_per_cycle over work_by_force"});
-  visit(&S::curve, Kept{"curve", "the levels"});
+  visit(&S::curve, Kept{"curve", "the contacts"});
   visit(&S::iterations, Kept{"iterations", "of all linear solves on contact sets"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
   visit(&S::termination, Kept{"termination", "how the iteration ended"});
-  visit(&S::converged, Kept{"converged", "whether every level converged"});
+  visit(&S::converged, Kept{"converged", "whether every contact converged"});
 }
 
-/// The loss of an oscillating contact by steps and by level quadrature, and the paper's equations
-/// for it. Those are empty where they do not apply: without a loss, and where F'' < 0.
+/// The loss of an oscillating contact computed in steps and by interval quadrature, and its ratio
+/// to the paper's equations. The numbers of these equations are empty where the equations do not
+/// apply: if there is no loss, and if F'' < 0.
 struct OscillationLoss {
-  double work_per_cycle = 0;        ///< by steps, or by level quadrature if there are no steps, J
-  double error_estimate = 0;        ///< J
+  double work_per_cycle = 0;           ///< by steps or, without steps, by interval quadrature, J
+  double error_estimate = 0;           ///< error of work_per_cycle, J
   double work_by_intervals = 0;        ///< IntervalQuadratureResult::work_per_cycle, J
-  double work_by_intervals_error = 0;  ///< J
-  double work_by_whole_cells = 0;   ///< IntervalQuadratureResult::work_by_intervals, J
-  std::optional<double> small_amplitude_work = {}, ratio = {};  ///< Eq. (12) or (15), J; W over it
-  double work_by_force = 0;                                     ///< with K_t = (G*/E*)K, J
-  std::optional<double> ratio_finite = {};
-  double work_over_elastic_energy = 0;
-  double indentation = 0;                      ///< mean, m
-  double force = 0;                            ///< at the mean indentation, N
-  std::optional<double> force_curvature = {};  ///< N/m²
+  double work_by_intervals_error = 0;  ///< error of work_by_intervals, J
+  double work_by_whole_cells = 0;      ///< IntervalQuadratureResult::work_by_intervals, J
+  std::optional<double> small_amplitude_work = {},
+                        ratio = {};         ///< Eq. (12) or (15), J; W over that
+  double work_by_force = 0;                 ///< loss with K_t = (G*/E*)K, J
+  std::optional<double> ratio_finite = {};  ///< work_per_cycle over work_by_force
+  double work_over_elastic_energy = 0;  ///< work_per_cycle over largest tangential elastic energy
+  double indentation = 0;               ///< mean indentation, m
+  double force = 0;                     ///< at the mean indentation, N
+  std::optional<double> force_curvature = {};  ///< F'' at the mean indentation, N/m²
   std::size_t intervals = 0;
 };
 
@@ -83,8 +85,8 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   visit(&S::error_estimate, quantity::error_estimate);
   visit(&S::work_by_intervals,
         Quantity{"work_by_intervals", energy, "energy dissipated in a cycle, by intervals"});
-  visit(&S::work_by_intervals_error, Quantity{"work_by_intervals_error", energy,
-                                           "estimated error of the energy by intervals"});
+  visit(&S::work_by_intervals_error,
+        Quantity{"work_by_intervals_error", energy, "estimated error of the energy by intervals"});
   visit(&S::work_by_whole_cells,
         Quantity{"work_by_whole_cells", energy,
                  "energy dissipated in a cycle, by intervals of whole cells"});
@@ -103,12 +105,13 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   visit(&S::intervals, Quantity{"intervals", dimensionless, "contacts in the oscillation"});
 }
 
-/// The same by the exponential law with a decay length.
+/// The loss predicted by the exponential law F ∝ exp(δ/l) with a given decay length l.
 struct ExponentialLoss {
-  double decay_length = 0;           ///< l, m
-  double predicted_exponential = 0;  ///< with F'' = F/l², J
-  std::optional<double> ratio_exponential = {};
-  double predicted_exponential_finite = 0;  ///< at this amplitude, J
+  double decay_length = 0;                       ///< l, m
+  double predicted_exponential = 0;              ///< Eq. (12) or (15) with F'' = F/l², J
+  std::optional<double> ratio_exponential = {};  ///< work_per_cycle over predicted_exponential
+  double predicted_exponential_finite = 0;  ///< exact for the exponential law at this amplitude, J
+  /// Computed work_per_cycle over predicted_exponential_finite.
   std::optional<double> ratio_exponential_finite = {};
 };
 
@@ -128,20 +131,23 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
                                                "the same over predicted_exponential_finite"});
 }
 
-/// Computes the relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t
-/// by parts (docs/theory.md, section 7):
+/// Computes the relaxation damping of a contact without stepping through the cycle, as W = ½∮ s²
+/// dK_t integrated by parts (docs/theory.md, section 7), where s is the released distance of a
+/// spring:
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
 ///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
-/// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch
-/// solve at each.
+/// for (a) EqualFrequency and (b) Drag, with δ(θ) = δ0 + u_z cosθ. At each Gauss–Legendre node of θ
+/// it solves the normal contact, its K_t (a stick solve) and its K (a punch solve).
 ///
 ///     ContactSets contacts = boundary_element_contact_sets(surface, material.contact_modulus);
-///     auto loss = interval_quadrature(contacts, surface.grid, material, Drag{1e-9, 1e-6, 1e5}, 1e-8);
+///     auto loss =
+///         interval_quadrature(contacts, surface.grid, material, Drag{1e-9, 1e-6, 1e5}, 1e-8);
 ///
-/// cost  levels + 2 normal contacts, and for all but one of them a stick and a punch solve
+/// cost  intervals + 2 normal contacts, and a stick and a punch solve for all but one of these
+///       contacts
 IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                       const Material& material, const Oscillation& motion,
-                                       double mean_indentation,
-                                       const IntervalQuadratureOptions& options = {});
+                                             const Material& material, const Oscillation& motion,
+                                             double mean_indentation,
+                                             const IntervalQuadratureOptions& options = {});
 
 }  // namespace salebra

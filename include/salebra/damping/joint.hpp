@@ -8,22 +8,23 @@
 
 namespace salebra {
 
-/// Energy loss and stiffness of a joint under a tangential oscillation between ±x or ±T.
+/// Energy loss and stiffness of a joint under a tangential oscillation, of the displacement between
+/// ±x or of the force between ±T.
 struct JointLoss {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double indentation = unknown;           ///< δ, or its mean over the cycle, m
+  double indentation = unknown;           ///< δ, or the cycle mean of δ, m
   double tangential_force = unknown;      ///< T, half the range of the tangential force, N
   double tangential_amplitude = unknown;  ///< x, half the range of the displacement, m
   double work_per_cycle = unknown;        ///< W, J
   double relaxation_work = unknown;       ///< part of W by springs that open and close, J
   double slip_work = unknown;             ///< part of W by springs that stay closed, J
-  double work_error = unknown;            ///< numerical error of W, for a surface, J
+  double work_error = unknown;            ///< numerical error of W, known for a surface, J
   double secant_stiffness = unknown;      ///< K_s = T/x, N/m
   double loss_factor = unknown;           ///< W/(2π · ½K_s x²)
-  double exponent = unknown;              ///< d ln W/d ln T; 3 at small T for every smooth law
-  double storage_stiffness = unknown;     ///< k' of the first harmonic of T under a harmonic x, N/m
-  double loss_stiffness = unknown;        ///< k'' of the same, W/(πx²), N/m
-  bool converged = false;                 ///< whether the quadratures reached the tolerance
+  double exponent = unknown;              ///< d ln W/d ln T; 3 for small T and a smooth law
+  double storage_stiffness = unknown;     ///< k': part of T in phase with a harmonic x, over x, N/m
+  double loss_stiffness = unknown;  ///< k'' = W/(πx²): part of T 90° ahead of x, over x, N/m
+  bool converged = false;           ///< whether the quadratures reached the tolerance
 };
 
 constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
@@ -48,15 +49,15 @@ constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
 
 /// The tangential oscillation, displacement-controlled or force-controlled.
 struct TangentialAmplitude {
-  double amplitude = 0;  ///< x > 0, m
+  double amplitude = 0;  ///< amplitude x > 0 of the displacement, m
 };
 struct TangentialForce {
-  double amplitude = 0;  ///< T > 0, N
+  double amplitude = 0;  ///< amplitude T > 0 of the tangential force, N
 };
 using TangentialOscillation = std::variant<TangentialAmplitude, TangentialForce>;
 
-/// A tangential oscillation x cos(ωt + φ0), or T cos(ωt + φ0), together with a normal one, δ + u_z
-/// cosωt.
+/// A tangential oscillation x cos(ωt + φ0) or T cos(ωt + φ0) together with a normal oscillation of
+/// the indentation, δ + u_z cosωt.
 struct JointMotion {
   TangentialOscillation tangential;
   double normal_amplitude = 0;  ///< u_z >= 0, m
@@ -64,33 +65,38 @@ struct JointMotion {
 };
 
 /// Computes partial slip under a constant normal force, by superposition of the springs of the law.
-/// With g = G*/E*, the largest depth of slip c = gx/μ and δ(θ) = δ − c(1 − cosθ)/2,
+/// Springs slip down to the distance c = gx/μ below the indentation δ, with g = G*/E*. With δ(θ) =
+/// δ − c(1 − cosθ)/2,
 ///     T = (x/2) ∫_0^π K_t(δ(θ)) sinθ dθ  ( = μ[F(δ) − F(δ − c)] with K_t = gK ),
 ///     W = x² ∫_0^π K_t(δ(θ)) sin2θ dθ,    k' = (2/π) ∫_0^π K_t(δ(θ)) sin²θ dθ,
 ///     d ln W/d ln T = (T/W) · 4[T/K_t(δ − c) − x]
-/// by Masing's rule, which builds the loop from the first loading (docs/theory.md, section 8). W is
-/// half of Eq. (12)'s theorem for a normal oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°.
+/// by Masing's rule, which builds the friction loop from the curve of first tangential loading
+/// (docs/theory.md, section 8). W equals half of relaxation_damping() for a normal oscillation of
+/// amplitude c/2 about δ − c/2 with u_x = x at φ0 = 90°.
 ///
 ///     JointLoss loss = joint_loss(law, at_force(100), TangentialForce{20}, 0.5);
 ///
 /// friction_coefficient  μ > 0, finite
-/// throws  InvalidInput for a force at which the contact slides (the message says which), for slip
-///         that reaches depths below the range of a tabulated law, and as relaxation_damping()
-/// cost    some hundred evaluations of the law, ten times as many for a force
+/// throws  InvalidInput for a tangential force at which the contact slides (the message states the
+///         force), for slip that reaches below the range of a tabulated law, and wherever
+///         relaxation_damping() does
+/// cost    some hundred evaluations of the law, ten times as many for a TangentialForce
 JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options = {});
 
-/// The same for a surface, with W from contacts solved inside the range of slip, δ − c to δ: half
-/// of surface_damping() for a normal oscillation of c/2 about δ − c/2 at φ0 = 90°. The other
-/// numbers are those of the law. The depth c at a force, or the force at a displacement, comes from
-/// contacts on cells of half the size.
-/// W carries the error of surface_damping(); for a force, also d ln W/d ln T times a third of the
-/// difference between c and that of the law. W is NaN where it is no larger than its error. A law
-/// through loads that are farther apart than the range of slip is interpolated there, and has no
-/// error.
-/// law      through the curve of this surface and material at `point`
-/// throws   NotConverged where a contact did not converge; Interrupted; and as above
+/// Computes the partial slip of a surface under a constant normal force. Springs slip at depths
+/// between δ − c and δ. W comes from contacts solved at indentations in this range: it is half of
+/// surface_damping() for a normal oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°. All other
+/// numbers are those of joint_loss() for the law. For a given tangential force, c comes from
+/// contacts on cells of half the size; so does the force for a given displacement. work_error is
+/// the error of surface_damping(); for a given force it also contains d ln W/d ln T times a third
+/// of the difference between this c and the c of the law. W is NaN where it is no larger than its
+/// error. (joint_loss() for a law whose loads are farther apart than c interpolates within the
+/// range of slip and states no error.)
+/// law      a law through a force curve of this surface and material that contains `point`
+/// throws   NotConverged if a contact did not converge; Interrupted; InvalidInput wherever
+///          joint_loss() throws it
 /// cost     for each motion some nine contacts on the given cells and three on cells of half the
 ///          size
 std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
@@ -99,25 +105,27 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
                                           double friction_coefficient,
                                           const Progress& on_progress = {});
 
-/// The same together with a normal oscillation about δ, followed step by step to the steady state.
-/// It is exact for straight steps, and of second order in their length. The exponent comes from
-/// ±1 % of the motion.
+/// Computes the loss of a tangential oscillation together with a normal oscillation about the
+/// indentation δ, followed step by step to the steady state. The result is exact for a path of
+/// straight steps; for the harmonic motion the error is of second order in the step length. The
+/// exponent d ln W/d ln T comes from a change of the tangential motion by ±1 %.
 /// steps    in a period, >= 16
-/// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput
-///          also where the normal force falls so low that the contact slides; Interrupted where
-///          on_progress says stop
-/// cost     two periods of a displacement, O(steps); for a force some tens of evaluations of the
-///          state for each step, and periods until the loss is steady to 1e-9
+/// throws   NotConverged if a TangentialForce leads to no steady state within 200 periods;
+///          InvalidInput wherever joint_loss() without a normal oscillation does, and if the normal
+///          force falls so low that the contact slides; Interrupted if on_progress says stop
+/// cost     for a TangentialAmplitude two periods of `steps` steps; for a TangentialForce some tens
+///          of trial steps for each step, and as many periods as it takes until the loss is steady
+///          to 1e-9
 JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const JointMotion& motion,
                      double friction_coefficient, int steps = 2000,
                      const Progress& on_progress = {});
 
 /// Simulates the joint in three dimensions, with Coulomb friction in each cell, until two periods
-/// lose the same (simulate_frictional_cycle). Relaxation and slip are separated by cells, not by
-/// springs; the exponent is NaN.
-/// options    with a finite friction_coefficient > 0
-/// converged  every solve converged, and the loss is steady
-/// throws     InvalidInput as above
+/// lose the same (simulate_frictional_cycle). relaxation_work is the loss of cells that open and
+/// close (not of springs), slip_work that of the remaining cells; the exponent is NaN.
+/// options    must have a finite friction_coefficient > 0
+/// converged  in the result: every solve converged, and the loss is steady
+/// throws     InvalidInput wherever joint_loss() does
 JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
                                const Material& material, double indentation,
                                const JointMotion& motion, const CycleOptions& options);

@@ -9,18 +9,18 @@
 
 namespace salebra {
 
-/// Numerical error of a loss by its causes, J. A cause that was not examined is NaN, and so is the
-/// total.
+/// Numerical error of a loss, divided by cause, J. The error of a cause that was not examined is
+/// NaN, and total() is then NaN too.
 struct ErrorBudget {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double cells = unknown;      ///< discretisation: change on cells of another size
-  double noise = unknown;      ///< 1.8 standard deviations: cells and patches enter one at a time
-  double intervals = unknown;  ///< change with half as many intervals of the oscillation
-  double stiffness_ratio = unknown;  ///< change with a straight K_t/((G*/E*)K)
-  double seam = 0;                   ///< periodic continuation of a scan; 0: not requested
-  double solver = unknown;           ///< tolerance of the contact solver
+  double cells = unknown;      ///< discretisation: change of the loss on cells of another size
+  double noise = unknown;      ///< from cells and patches entering singly: 1.8 standard deviations
+  double intervals = unknown;  ///< change of the loss with half as many intervals
+  double stiffness_ratio = unknown;  ///< change if K_t/((G*/E*)K) is linear in ln F
+  double seam = 0;                   ///< from continuing a scan periodically; 0: not estimated
+  double solver = unknown;           ///< from the tolerance of the contact solver
 
-  /// Root of the sum of squares of all causes, J.
+  /// Square root of the sum of squares of the errors of all causes, J.
   double total() const {
     return std::sqrt(cells * cells + noise * noise + intervals * intervals +
                      stiffness_ratio * stiffness_ratio + seam * seam + solver * solver);
@@ -42,8 +42,8 @@ constexpr void describe(auto&& visit, std::type_identity<ErrorBudget>) {
         Quantity{"solver_error", energy, "error of work_per_cycle by the solver's tolerance"});
 }
 
-/// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩. Unknown
-/// numbers are NaN.
+/// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩ (mean
+/// dissipated power over mean square tangential velocity). Unknown numbers are NaN.
 ///
 ///     double relative_error = loss.damping_constant_error() / loss.damping_constant;
 ///
@@ -60,18 +60,20 @@ struct Loss {
   double slip_work = unknown;        ///< part of W by springs that stay closed, J; NaN without μ
   ErrorBudget error = {};            ///< of work_per_cycle
   ErrorBudget error_without_slip = {};  ///< of work_per_cycle_without_slip
-  double damping_per_work = unknown;    ///< γ of a loss of 1 J, N s/m
+  double damping_per_work = unknown;    ///< damping constant of a loss of 1 J, N s/m
 
   double work_per_cycle_error() const { return error.total(); }
   double damping_constant_error() const { return error.total() * damping_per_work; }
   double damping_constant_without_slip_error() const {
     return error_without_slip.total() * damping_per_work;
   }
-  /// Computes γ = P/⟨ẋ²⟩ from the works, ⟨ẋ²⟩ = v² or (u_x ω)²/2; NaN where the motion has no ω.
+  /// Computes the damping constants γ = P/⟨ẋ²⟩ from the losses per cycle, with ⟨ẋ²⟩ = v² for a Drag
+  /// and (u_x ω)²/2 for an EqualFrequency; NaN if ω is unknown.
   void set_damping_constants(const Oscillation& motion);
-  /// Sets the loss, and the loss without slip, to NaN if its error is not smaller; the errors stay.
+  /// Sets the loss to NaN if its error is not smaller than its magnitude, and likewise the loss
+  /// without slip; the errors stay.
   void drop_uncertain();
-  /// Sets the loss to NaN, except the numbers without slip.
+  /// Sets the loss and its parts to NaN; the numbers without slip stay.
   void forget();
   double relaxation_share() const { return relaxation_work / work_per_cycle; }
   double slip_share() const { return slip_work / work_per_cycle; }

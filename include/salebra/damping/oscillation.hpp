@@ -11,7 +11,8 @@
 
 namespace salebra {
 
-/// Case (a): z = u_z cos ωt, x = u_x cos(ωt + φ0).
+/// Case (a): a normal oscillation z = u_z cos ωt (towards contact) and a tangential oscillation x =
+/// u_x cos(ωt + φ0) of the same frequency.
 struct EqualFrequency {
   double normal_amplitude = 0;      ///< u_z >= 0, m
   double tangential_amplitude = 0;  ///< u_x, m
@@ -29,14 +30,16 @@ constexpr void describe(auto&& visit, std::type_identity<EqualFrequency>) {
   visit(&S::angular_frequency, quantity::angular_frequency);
 }
 
-/// Case (b): z = u_z cos ωt and a slow oscillation along x with velocity v, and an excursion far
-/// below (μE*/G*)F/K. A motion that never reverses ends in sliding.
+/// Case (b): a normal oscillation z = u_z cos ωt and a slow tangential motion to and fro with
+/// velocity v. To avoid sliding, the distance between its turning points must be far below
+/// (μE*/G*)F/K; a motion that never reverses ends in sliding.
 struct Drag {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double drag_velocity = 0;      ///< v, m/s
   double angular_frequency = 0;  ///< ω > 0, rad/s
 
-  /// w = |v|/f, m. The motion is slow if it reverses after many of these distances.
+  /// Tangential distance per normal cycle, w = 2π|v|/ω, m. The motion is slow if the distance
+  /// between its turning points is many times w.
   double distance_per_cycle() const {
     return 2 * std::numbers::pi * std::abs(drag_velocity) / angular_frequency;
   }
@@ -50,8 +53,8 @@ constexpr void describe(auto&& visit, std::type_identity<Drag>) {
 
 using Oscillation = std::variant<EqualFrequency, Drag>;
 
-/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a); a slow
-/// tangential motion tends to case (b).
+/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal frequencies are case (a),
+/// EqualFrequency; for ω_x ≪ ω_z the loss tends to case (b), Drag.
 struct TwoFrequencies {
   double normal_amplitude = 0;              ///< u_z >= 0, m
   double tangential_amplitude = 0;          ///< u_x, m
@@ -79,16 +82,17 @@ constexpr void describe(auto&& visit, std::type_identity<TwoFrequencies>) {
 ///     Motion motion = EqualFrequency{1e-9, 1e-10, std::numbers::pi / 2, 1e5};
 using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
 
-/// Returns the motion if it has one frequency; empty for two.
+/// Returns the motion as an Oscillation; empty for TwoFrequencies.
 std::optional<Oscillation> oscillation_of(const Motion& motion);
-/// Returns the same motion as one of all motions.
+/// Converts an Oscillation to a Motion.
 Motion motion_of(const Oscillation& motion);
 
-/// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms. It is 0/0 where no ratio with at most
-/// `max_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means replace sums.
+/// Common period of two frequencies, ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms.
+/// Both numbers are 0 if no such fraction with at most `max_cycles` normal cycles agrees to 1e-9:
+/// the motion then counts as never repeating, and results are means instead of sums over a period.
 struct CommonPeriod {
-  int normal_cycles = 0;      ///< p
-  int tangential_cycles = 0;  ///< q
+  int normal_cycles = 0;      ///< normal cycles p in the period
+  int tangential_cycles = 0;  ///< tangential cycles q in the period
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
@@ -101,9 +105,9 @@ constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
 }
 CommonPeriod common_period(const TwoFrequencies& motion, int max_cycles = 1000);
 
-/// One period of any motion, with straight lines between the samples; the last sample closes the
-/// period. δ returns to its first value; x may have advanced by a drift, which every period repeats
-/// (case (b)).
+/// One period of any motion, with straight lines between the samples; the last sample is the end of
+/// the period. There, δ is back at its first value; x may have advanced by a drift, which repeats
+/// in every period (as for a Drag).
 struct SampledMotion {
   std::vector<double> time;          ///< s, strictly increasing
   std::vector<double> indentation;   ///< δ, m
@@ -112,7 +116,7 @@ struct SampledMotion {
   double period() const { return time.back() - time.front(); }
   double drift() const { return displacement.back() - displacement.front(); }
   /// Throws InvalidInput unless the columns have equal length >= 3, all values are finite, time
-  /// increases, and δ closes to 1e-9 of its range.
+  /// increases, and the last δ equals the first within 1e-9 of the range of δ.
   void validate() const;
 };
 
@@ -126,14 +130,14 @@ constexpr void describe(auto&& visit, std::type_identity<SampledMotion>) {
   visit(&S::drift, Kept{"drift", "displacement of a period", length});
 }
 
-/// Returns one period about a mean indentation with `steps` straight steps for each normal cycle,
-/// from a minimum of δ. An EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput
-/// for TwoFrequencies without a common period.
+/// Returns one period of a motion about a mean indentation, starting at a minimum of δ, with
+/// `steps` straight steps for each normal cycle. An EqualFrequency of unknown ω gets a period of 2π
+/// s. Throws InvalidInput for TwoFrequencies without a common period.
 SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps);
 SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps);
 
-/// The quantity held constant over a cycle at finite u_z: the mean indentation, or the mean force
-/// (a dead weight).
+/// The quantity that stays constant when a normal oscillation of finite amplitude starts: the mean
+/// indentation, or the mean force (a dead weight).
 enum class Hold { indentation, force };
 
 template <>

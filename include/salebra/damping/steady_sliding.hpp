@@ -20,15 +20,16 @@ struct SteadySliding {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double indentation = unknown;        ///< δ0, m
   double mean_force = unknown;         ///< F̄, mean normal force of the cycle, N
-  double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from there on
-  /// μF(δ_min)/F̄: limit of T̄/F̄ as v → 0, the static friction.
+  double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ for v >= v_c
+  /// μF(δ_min)/F̄, the apparent static coefficient of friction: limit of T̄/F̄ as v → 0. δ_min is
+  /// the smallest indentation of the cycle.
   double static_friction_coefficient = unknown;
-  double low_speed_damping =
-      unknown;  ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
-  double relaxation_damping = unknown;     ///< γ of case (b) without slip, N s/m
+  /// Γ, N s/m, the slope of T̄ at low speed: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0.
+  double low_speed_damping = unknown;
+  double relaxation_damping = unknown;     ///< γ of a Drag without slip, N s/m
   double mean_tangential_force = unknown;  ///< T̄, N
   double friction_coefficient = unknown;   ///< T̄/F̄, the apparent coefficient of friction
-  double sliding_damping = unknown;  ///< dT̄/dv at this velocity, N s/m: Γ as v → 0, 0 from v_c on
+  double sliding_damping = unknown;  ///< dT̄/dv at velocity v, N s/m: Γ as v → 0, 0 for v >= v_c
   double relaxation_work = unknown;  ///< lost per period by springs that open and close, J
   double slip_work = unknown;        ///< lost per period by springs that stay closed, J
   double error_estimate = unknown;   ///< error of mean_tangential_force by the quadrature, N
@@ -94,7 +95,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingErrors>) {
   visit(&S::slip_work_error, Quantity{"slip_work_error", energy, "error of slip_work"});
 }
 
-/// Pairs each number with its error.
+/// Pairs of each number of SteadySliding and its error in SlidingErrors.
 inline constexpr std::pair<double SteadySliding::*, double SlidingErrors::*> sliding_errors[]{
     {&SteadySliding::mean_force, &SlidingErrors::mean_force_error},
     {&SteadySliding::critical_velocity, &SlidingErrors::critical_velocity_error},
@@ -110,12 +111,13 @@ inline constexpr std::pair<double SteadySliding::*, double SlidingErrors::*> sli
 
 /// Steady sliding at one amplitude and one velocity.
 struct SlidingPoint {
-  double normal_amplitude = 0;                     ///< u_z, m
-  double velocity = 0;                             ///< v, m/s
-  double velocity_ratio = SteadySliding::unknown;  ///< v/v_c, if the velocity was given by it
+  double normal_amplitude = 0;  ///< u_z, m
+  double velocity = 0;          ///< v, m/s
+  double velocity_ratio =
+      SteadySliding::unknown;  ///< v/v_c, if the velocity was given as this ratio
   SteadySliding state = {};
   SlidingErrors errors = {};  ///< known for a surface
-  /// RegimeMap::no_slip_excursion, m; unknown too where no regimes are mapped.
+  /// RegimeMap::no_slip_excursion, m; also unknown if no regime map was computed.
   double no_slip_excursion = SteadySliding::unknown;
 };
 
@@ -135,9 +137,9 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
 
 /// One entry of a RegimeMap, as a row of a table.
 struct RegimePoint {
-  double velocity = 0, excursion = 0;  ///< m/s, m
-  double loss_ratio = 0, slip_ratio = 0;
-  int regime = 0;  ///< a Regime
+  double velocity = 0, excursion = 0;     ///< m/s, m
+  double loss_ratio = 0, slip_ratio = 0;  ///< as in RegimeMap
+  int regime = 0;                         ///< a Regime
 };
 
 constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
@@ -158,24 +160,26 @@ constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
 ///     SteadySliding state = steady_sliding(law, at_force(1), Drag{1e-9, 1e-4, 1e5}, 0.3);
 ///
 /// The spring at depth ζ sticks, or slips at the stretch limit (μK/K_t)(δ − ζ). For v > 0 every
-/// closed spring is at its limit when δ is smallest, so one period from there is the steady state
-/// (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and φ_e(φ) > π − φ_a where
-/// −cosφ_e − rφ_e = −cosφ − rφ,
+/// closed spring is at this limit when δ is smallest, so the first period that starts at that
+/// moment is already steady (docs/theory.md, section 8). Let r = v/v_c < 1 and φ_a = arcsin r. A
+/// spring that starts to stick at the phase φ, φ_a < φ < π − φ_a, slips again at the phase φ_e > π
+/// − φ_a with −cosφ_e − rφ_e = −cosφ − rφ. Then
 ///     T̄ = μF(δ_min) + (1/2π) ∫_0^π [μ u_z K (2π − φ − φ_e) sinφ + (v/ω) K_t (φ_e − φ)] dφ,
-/// with φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. If the
-/// law has its own K_t, K_t/K is taken at δ0. A small disturbance of the sliding, slow against the
-/// oscillation, is damped by
+/// where outside φ_a < φ < π − φ_a φ_e is 2π − φ and the second term is left out. The low-speed
+/// damping is Γ = γ + πK_t(δ_min)/ω. If the law has its own K_t, K_t/K is taken at δ0. A small
+/// disturbance of the sliding velocity that is slow compared with the oscillation is damped by the
+/// constant
 ///     dT̄/dv = (1/2πω) ∫ K_t (φ_e − φ)(1 + (sinφ − r)/(r − sinφ_e)) dφ   over φ_a < φ < π − φ_a,
-/// since the stretch of a spring that sticks from φ on grows by (φ' − φ)/ω per unit of v until it
-/// slips.
+/// because the stretch of a spring that sticks from the phase φ on has grown at the phase φ' by (φ'
+/// − φ)/ω per unit of velocity, until it slips.
 /// friction_coefficient  μ >= 0, finite
 /// motion                drag_velocity is v > 0
-/// throws  InvalidInput as relaxation_damping()
-/// cost    seven evaluations of the law for each of its pieces, some hundred for a smooth one; a
-///         list of velocities shares them
+/// throws  InvalidInput wherever relaxation_damping() does
+/// cost    seven evaluations of the law for each interval between break points of a tabulated law,
+///         some hundred for a smooth law; all velocities of a list share these evaluations
 SteadySliding steady_sliding(const ContactLaw& law, const OperatingPoint& point, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options = {});
-/// The same for each velocity > 0, m/s.
+/// Computes steady sliding for each velocity > 0, m/s, and returns the results in the same order.
 std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const OperatingPoint& point,
                                           const NormalOscillation& normal,
                                           std::span<const double> velocities,
@@ -190,18 +194,19 @@ struct SurfaceSlidingMotion {
   Hold hold = Hold::indentation;
 };
 
-/// The same for a surface, from contacts solved inside the oscillation, with errors. K between
-/// contacts is kriged as in surface_damping(). All numbers are nearly linear in K, so each has a
-/// standard deviation, of which 1.8 are stated. The error also contains a third of the change on
-/// cells of half the size, for which the number is given; the change where every second contact is
-/// left out; and the change with a straight K_t/K. relaxation_damping is that of surface_damping().
-/// A number is NaN where it is no larger than its error.
-/// curve   of this surface and material, in full stick; `load` is the index of the sample about
-///         which it slides
-/// returns one pair for each velocity
-/// throws  InvalidInput for u_z that is not > 0, and as above; NotConverged where a contact did not
-///         converge; Interrupted
-/// cost    nine contacts on the given cells, five on cells of half the size, and those of
+/// Computes steady sliding of a surface, with errors, from contacts solved inside the oscillation.
+/// K between these contacts is interpolated by kriging, as in surface_damping(). All numbers are
+/// nearly linear in K, so the kriging gives each number a standard deviation, and the error
+/// contains 1.8 of them. The error also contains three changes of the number: a third of its change
+/// on cells of half the size (the number itself is that of the smaller cells), its change if every
+/// second contact is left out, and its change if K_t/K is linear in ln F. relaxation_damping is
+/// that of surface_damping(). A number is NaN where it is no larger than its error.
+/// curve   force curve of this surface and material, with K_t in full stick
+/// load    index of the sample of the curve about which the contact oscillates
+/// returns one pair (numbers, errors) for each velocity
+/// throws  InvalidInput for u_z that is not > 0, and wherever steady_sliding() does; NotConverged
+///         if a contact did not converge; Interrupted if on_progress says stop
+/// cost    nine contacts on the given cells, five on cells of half the size, and the contacts of
 ///         surface_damping()
 std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
     const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,

@@ -19,26 +19,27 @@ struct TrajectoryDampingOptions {
 /// Steady state of a contact under a periodic motion.
 struct TrajectoryDamping {
   double work_per_cycle = 0;  ///< energy lost per period, J
-  double relaxation_work =
-      0;                 ///< part of it by springs that open and close (all of it in full stick), J
-  double slip_work = 0;  ///< part of it by springs in permanent contact: slip of Cattaneo and
-                         ///< Mindlin, J
-  double power = 0;      ///< W per period, W
+  /// Part of work_per_cycle lost by springs that open and close (all of it in full stick), J.
+  double relaxation_work = 0;
+  /// Part of work_per_cycle lost by springs in permanent contact, J: the slip loss of Cattaneo and
+  /// Mindlin.
+  double slip_work = 0;
+  double power = 0;             ///< work_per_cycle divided by the period, W
   double damping_constant = 0;  ///< γ = P/⟨ẋ²⟩, N s/m; NaN for a motion without ẋ
   /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion
-  /// with drift or without x.
+  /// with drift or without tangential displacement.
   double storage_stiffness = 0;
-  double loss_factor =
-      0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as
-  ///< storage_stiffness
-  /// These columns have one entry per sample of the trajectory; the loop is (displacement,
-  /// tangential_force).
-  /// F_x, N. Springs that never separate or slip are free of stress in the middle of a periodic
-  /// motion; with drift their force, which grows without bound in full stick, is left out.
+  /// work_per_cycle/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩); for a harmonic motion this is W/(2πU)
+  /// with the largest stored energy U. NaN if storage_stiffness is NaN.
+  double loss_factor = 0;
+  /// F_x at each sample of the trajectory, N; plotted over SampledMotion::displacement it is the
+  /// friction loop. Springs that never separate or slip are taken as free of stress in the middle
+  /// of a periodic motion. With drift, the force of these springs would grow without bound in full
+  /// stick and is left out.
   std::vector<double> tangential_force;
-  std::vector<double> transverse_force;  ///< F_y, N, likewise; empty without motion along y
-  std::vector<double> dissipated;        ///< energy lost since the first sample, J
-  std::size_t memory = 0;                ///< maximum number of history pieces
+  std::vector<double> transverse_force;  ///< F_y at each sample, N; empty without motion along y
+  std::vector<double> dissipated;        ///< energy lost up to each sample, J
+  std::size_t memory = 0;                ///< largest number of pieces of the stored history
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
@@ -61,22 +62,22 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
 ///
 ///     TrajectoryDamping loss = trajectory_damping(law, sample(motion, 1e-8, 2000));
 ///
-/// Without drift it is reached in the second period. With drift and friction the contact slides:
-/// after a period that begins, at the smallest δ, with every spring at its stretch limit the next
-/// one is steady (docs/theory.md, section 8). The result is exact for the straight steps of the
-/// trajectory, and of second order in the step for a sampled harmonic motion.
-/// Throws InvalidInput for a trajectory that is not valid or leaves the law's range, and for
-/// friction < 0. Cost: O(samples).
+/// Without drift the steady state is reached in the second period. With drift and finite friction
+/// the contact slides: the first period starts, at the smallest δ, with every spring at its stretch
+/// limit, and the second period is steady (docs/theory.md, section 8). The result is exact for the
+/// straight steps of the trajectory, and of second order in the step for a sampled harmonic motion.
+/// Throws InvalidInput for a trajectory that fails SampledMotion::validate() or leaves the range of
+/// the law, and for a friction coefficient < 0. Cost: O(samples).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
-/// The same in full stick for a motion in two tangential directions, x of the trajectory and y. The
-/// stretch s of a released spring is a vector, and ½K_t'|s|² is lost: the sum of the losses of both
-/// directions, for a law whose K_t is the same in all of them. Means are those of the vectors: the
-/// damping constant is P/⟨ẋ² + ẏ²⟩, the storage stiffness that of F_x x + F_y y. Friction, whose
-/// slip limit would be one of |s|, is not supported here.
-/// transverse   y at the samples, m, which may advance over the period. Throws InvalidInput unless
-///              there is one finite value per sample.
+/// Computes the steady state in full stick for a motion in two tangential directions: x of the
+/// trajectory, and y = transverse. The stretch s of a released spring is then a vector, and
+/// ½K_t'|s|² per depth is lost, i.e. the sum of the losses of motion along x and along y; K_t must
+/// be the same in all directions. The damping constant is P/⟨ẋ² + ẏ²⟩, and the storage stiffness
+/// uses F_x x + F_y y and x² + y². Finite friction is not supported.
+/// transverse   y at the samples, m; its last value may differ from the first (drift). Throws
+///              InvalidInput unless there is one finite value per sample.
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      std::span<const double> transverse);
 

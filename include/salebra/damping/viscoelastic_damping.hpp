@@ -12,26 +12,26 @@ namespace salebra {
 
 /// Loss of a viscoelastic contact in full stick over a period of its steady state, by cause.
 struct ViscoelasticDamping {
-  double work_per_cycle = 0;  ///< total loss, J: the sum of the next three
-  /// Loss in the material under the normal motion, J: ∮F dδ. It also exists without tangential
+  double work_per_cycle = 0;  ///< total loss, J: sum of the three parts below
+  /// Loss in the material due to the normal motion, ∮F dδ, J. It also occurs without tangential
   /// motion.
   double normal_material_work = 0;
-  double tangential_material_work =
-      0;  ///< loss in the material of springs in contact under the tangential motion, J
-  /// Energy of springs that separate while stretched, J, minus what they still hold when they touch
-  /// again. It is lost at once and by recovery of the free surface, and tends to the relaxation
-  /// damping of an elastic body.
+  /// Loss, J, in the material of the springs in contact due to the tangential motion.
+  double tangential_material_work = 0;
+  /// Tangential energy of springs when they separate, J, minus the energy that they still have when
+  /// they touch again. Part of it is lost at once, the rest while the free surface recovers. For an
+  /// elastic body it is the relaxation damping.
   double relaxation_work = 0;
-  double power = 0;  ///< work_per_cycle over the period, W
-  /// Damping constant from tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a
-  /// motion without ẋ.
+  double power = 0;  ///< work_per_cycle divided by the period, W
+  /// Damping constant, N s/m: mean power of tangential_material_work + relaxation_work, divided by
+  /// ⟨ẋ²⟩. NaN for a motion without tangential velocity.
   double damping_constant = 0;
   std::vector<double> force;      ///< F at the samples of the trajectory, N
   double mean_force = 0;          ///< mean of F over the period, N
-  double min_contact_radius = 0;  ///< of the permanent contact, m
-  double max_contact_radius = 0;  ///< m
-  /// Whether the periodic state of each spring was found; round-off hides it where relaxation times
-  /// exceed some 1e9 periods.
+  double min_contact_radius = 0;  ///< radius of the permanent contact, m
+  double max_contact_radius = 0;  ///< largest of the period, m
+  /// Whether the periodic state of each spring was found. Round-off prevents this if relaxation
+  /// times exceed some 1e9 periods.
   bool converged = false;
 };
 
@@ -63,27 +63,30 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticDamping>) {
 ///
 ///     auto loss = viscoelastic_damping(law, prony, sample(motion, 1e-8, 512));
 ///
-/// The springs of the foundation are those of viscoelastic_indentation(), with G* for the
-/// tangential stiffness in place of E*; a spring that separates loses its tangential force at once.
-/// The periodic state of each spring is found by Newton's method, without waiting for it; springs
-/// in permanent contact are treated as one. With drift (case (b)) their force grows without bound,
-/// but their loss does not.
+/// The springs of the elastic foundation are those of viscoelastic_indentation(), with a tangential
+/// stiffness given by G* instead of E*; a spring that separates loses its tangential force at once.
+/// Newton's method finds the periodic state of each spring directly, without simulating many
+/// periods. All springs in permanent contact are treated as one spring; with drift (case (b), Drag)
+/// its force grows without bound, but its loss does not.
 /// law, prony  as in viscoelastic_indentation(); G* must be known
-/// trajectory  one period, straight between the samples; second order in their number
-/// springs     over the ring that opens and closes, second order
-/// throws      InvalidInput as viscoelastic_indentation(), and for a trajectory that is not valid;
-///             Interrupted where on_progress, which counts springs, says stop
-/// cost        about 10 × samples × springs × terms
+/// trajectory  one period, straight between the samples; the error is of second order in the time
+///             step
+/// springs     number of springs over the ring that opens and closes; the error is of second order
+///             in their width
+/// throws      InvalidInput wherever viscoelastic_indentation() does, and for a trajectory that
+///             fails SampledMotion::validate(); Interrupted if on_progress, which counts springs,
+///             says stop
+/// cost        about 10 × samples × springs × terms of the Prony series
 ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
                                          const SampledMotion& trajectory, int springs = 200,
                                          const Progress& on_progress = {});
 
-/// The same for a named motion, with the moduli at its frequency and the loss of the elastic body
-/// of the relaxed modulus.
+/// Loss of a viscoelastic contact under an Oscillation, with the complex shear modulus at its
+/// frequency and, for comparison, the loss of an elastic body with the relaxed modulus.
 struct ViscoelasticLoss {
   double angular_frequency = 0;                  ///< ω of the normal motion, rad/s
-  double storage_modulus = 0, loss_modulus = 0;  ///< of the shear modulus at this frequency, Pa
-  double elastic_work = 0;                       ///< loss of the elastic body, J
+  double storage_modulus = 0, loss_modulus = 0;  ///< parts G', G'' of the shear modulus at ω, Pa
+  double elastic_work = 0;  ///< loss of an elastic body with the relaxed modulus, J
   ViscoelasticDamping damping = {};
 };
 
@@ -103,13 +106,13 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticLoss>) {
 
 struct ViscoelasticOptions {
   int steps = 512;    ///< straight steps per cycle
-  int springs = 200;  ///< over the ring that opens and closes
+  int springs = 200;  ///< number of springs over the ring that opens and closes
   Progress on_progress = {};
 };
 
 /// Computes the losses of a motion about an indentation, m.
-/// throws  as relaxation_damping() for the elastic body, which is computed first, and as
-///         viscoelastic_damping()
+/// throws  whatever relaxation_damping() throws for the elastic body, which is computed first, and
+///         whatever viscoelastic_damping() throws
 ViscoelasticLoss viscoelastic_loss(const IndenterLaw& law, const PronySeries& prony,
                                    const Oscillation& motion, double indentation,
                                    const ViscoelasticOptions& options = {});

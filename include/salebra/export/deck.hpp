@@ -30,8 +30,9 @@ struct EnumNames<DeckFormat> {
        {DeckFormat::c_header, "c_header"}});
 };
 
-/// Selects one of several surfaces for a deck. Low and high are whole surfaces, ranked by their
-/// force at one clearance: 2.5 % of the surfaces are below low, and 2.5 % above high.
+/// Selects one of several surfaces for a deck. `mean` is the mean of the surfaces. `low` and `high`
+/// are single surfaces, ranked by their force at a given clearance: 2.5 % of the surfaces have a
+/// smaller force than `low`, and 2.5 % a larger force than `high`.
 enum class DeckCase { mean, low, high };
 template <>
 struct EnumNames<DeckCase> {
@@ -46,26 +47,28 @@ struct DeckContact {
   double nominal_area = unknown;  ///< A, m²
   double sample_area = unknown;  ///< area of the sample that the law was scaled from, m²; NaN: not
                                  ///< scaled
-  /// δ for the stick slope and Jenkins sliders, m; NaN: not given.
+  /// Indentation δ at which K_t (the stick slope) and the Jenkins sliders are computed, m; NaN: not
+  /// given.
   double indentation = unknown;
-  double lowest = unknown, highest = unknown;  ///< range of δ in decks, m; NaN: all that is known
-  double clearance_origin = 0;                 ///< clearance = clearance_origin − δ, m
-  std::string clearance_from = {};             ///< reference of the clearance, as text
-  double decay_length = unknown;               ///< l of an exponential law, m; NaN for other laws
-  bool knows_tangential_stiffness = true;
+  double lowest = unknown,
+         highest = unknown;         ///< range of δ in decks, m; NaN: the full range of the law
+  double clearance_origin = 0;      ///< clearance = clearance_origin − δ, m
+  std::string clearance_from = {};  ///< reference of the clearance, as text
+  double decay_length = unknown;    ///< l of an exponential law, m; NaN for other laws
+  bool knows_tangential_stiffness = true;  ///< false: G* and K_t are unknown
 };
 
-/// Prepares a law for decks at an indentation, by default 0 for an exponential law. The clearance
-/// is −δ.
+/// Prepares a law for decks. `indentation` is DeckContact::indentation, m, by default 0 for an
+/// exponential law. The clearance is −δ.
 DeckContact deck_contact(std::shared_ptr<const ContactLaw> law,
                          std::optional<double> indentation = {});
 
 /// Computes the law of a contact and prepares it for decks. G*/E* of a curve may be NaN if it has
 /// K_t, or if none is needed. A law without a table is used from 0.001 to 10 times the force of its
-/// position.
-///     clearance   from the mean gap ū of a curve; −δ of a curve without it and of an indenter; −δ
-///                 of an exponential law, from the point where F is the first of its forces
-/// Throws as solve() does, and for several positions.
+/// operating point.
+///     clearance   mean gap ū for a curve; −δ for a curve without mean gap and for an indenter; −δ
+///                 for an exponential law, with δ = 0 at the first of its forces
+/// Throws wherever solve(ContactProblem) does, and for several operating points.
 DeckContact deck_contact(ContactProblem problem, const Context& context = {});
 
 struct DeckProblem {
@@ -73,30 +76,31 @@ struct DeckProblem {
   DeckFormat format = DeckFormat::csv;
   UnitSystem units = {};
   double friction_coefficient = DeckContact::unknown;  ///< μ > 0; NaN: decks without friction
-  /// Area of the part, m²: laws of contacts with a known area are scaled to it; other laws are
-  /// those of the part. NaN: the contacts are the parts.
+  /// Nominal area of the part, m². Laws of contacts with a known nominal area are scaled to this
+  /// area; any other law is taken as the law of the part. NaN: no scaling.
   double nominal_area = DeckContact::unknown;
   /// Nominal pressures in decks, Pa; empty: the full range of the contacts.
   std::optional<std::pair<double, double>> pressure_window = {};
   int rows = 200;                ///< rows of a table, 4 to 100000; at most 198 for CalculiX, 19 for
                                  ///< Ansys
-  DeckCase of = DeckCase::mean;  ///< for sliders and C header; other formats contain all three
-  int sliders = 200;             ///< 2 to 100000; for a C header springs, 8 to 4096
-  double min_force = 0.01;  ///< T/(μF) from which the loss of the Jenkins sliders is accurate
+  DeckCase of = DeckCase::mean;  ///< for jenkins and c_header; other formats have all cases
+  int sliders = 200;        ///< Jenkins sliders, 2 to 100000; in a C header: springs, 8 to 4096
+  double min_force = 0.01;  ///< smallest T/(μF) at which the loss of the sliders is accurate
   std::string name = "contact";  ///< prefix of every name in a C header
-  std::string source = {};       ///< source of the contacts, for the header
-  std::string comment = {};       ///< additional sentence for the header
+  std::string source = {};       ///< source of the contacts, written into the deck
+  std::string comment = {};      ///< additional sentence, written into the deck
   Provenance provenance = {};
 };
 
 struct DeckSolution {
   std::string text;  ///< the deck
-  int surfaces = 0;
-  /// Maximum error of linear interpolation between the rows of the mean, relative to its pressure.
+  int surfaces = 0;  ///< number of surfaces used
+  /// Largest relative error of the pressure when it is interpolated linearly between the rows of
+  /// the mean law.
   double interpolation_error = DeckContact::unknown;
   double tangential_stiffness = DeckContact::unknown;  ///< total K_t of the Jenkins sliders, N/m
   double slip_force = DeckContact::unknown;            ///< total μF, N
-  /// Relative error of the loss of the sliders at the smallest force.
+  /// Relative error of the loss of the Jenkins sliders at the force DeckProblem::min_force.
   double loss_error = DeckContact::unknown;
 };
 
@@ -116,17 +120,19 @@ constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
 /// Writes the text of a deck:
 ///     const DeckSolution deck = solve(DeckProblem{.contacts = {deck_contact(law)},
 ///                                              .format = DeckFormat::abaqus});
-/// Tables list the pressure p = F/A over clearance, monotone and convex: rows up to 1 % above a
-/// straight line between others are moved to the line. Jenkins sliders: with ρ = K_t/K at δ,
-/// springs of stiffness K_t' dζ slip from x = (μ/ρ)(δ − ζ) on, so the backbone is T' = K_t(δ −
-/// ρx/μ) as in joint_loss(). One slider represents the springs between two displacements, with
-/// their stiffness and force: T and T' are exact at each of these, K_t and μF in total. The loss
-/// converges with order 2. A C header implements the steps of ContactElement without dependencies,
-/// with its springs over the clearances of the deck; without μ it is in full stick.
+/// Tables list the pressure p = F/A over clearance, monotone and convex: a row that lies up to 1 %
+/// above the straight line between other rows is moved to that line. Jenkins sliders: with ρ =
+/// K_t/K at δ, the spring of stiffness K_t' dζ at depth ζ slips at displacements above x = (μ/ρ)(δ
+/// − ζ), so the curve of first tangential loading T(x) has the slope T' = K_t(δ − ρx/μ), as in
+/// joint_loss(). Each slider represents the springs that begin to slip between two displacements,
+/// with their total stiffness and force: T and T' are exact at these displacements, and so are the
+/// total K_t and μF. The error of the loss is of second order in the number of sliders. A C header
+/// implements the steps of ContactElement without dependencies, with springs over the range of
+/// clearances of the deck; without a coefficient of friction the contact is in full stick.
 /// throws  InvalidInput for a force that does not grow with approach, a curve that is not convex, a
-///         missing area, K_t, position or coefficient of friction that the format needs, surfaces
-///         without a common range, and numbers out of range
-/// cost    rows or sliders times about ten evaluations of each law
+///         missing area, K_t, operating point or coefficient of friction that the format needs,
+///         surfaces without a common range, and numbers out of range
+/// cost    about ten evaluations of each law for each row or slider
 DeckSolution solve(const DeckProblem& problem);
 
 }  // namespace salebra

@@ -7,15 +7,15 @@
 
 namespace salebra {
 
-/// Base units of a program without units of its own, such as mm, t, s. Every other unit follows
-/// from the exponents of its dimension: force is length·mass/time².
+/// Base units of length, mass and time for a program without a unit system of its own, such as mm,
+/// t, s. All other units follow from these, e.g. force = length·mass/time².
 struct UnitSystem {
   std::string length = "m", mass = "kg", time = "s";
 
-  /// Returns the SI value of one unit of a dimension: 1e6 Pa for mm, t, s. Throws InvalidInput for
-  /// a dimension that is not mechanical, such as an angle in degrees.
+  /// Returns the SI value of the unit of a dimension, e.g. 1e6 (Pa) for a pressure in mm, t, s.
+  /// Throws InvalidInput for a dimension that is not mechanical, such as an angle in degrees.
   double in_si(Dimension dimension) const;
-  /// "mm, t, s".
+  /// Returns the three units as text, e.g. "mm, t, s".
   std::string text() const { return length + ", " + mass + ", " + time; }
 };
 

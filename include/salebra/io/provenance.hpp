@@ -19,14 +19,15 @@ struct Provenance {
   std::string revision;    ///< commit of the program's sources; empty: not known, not written
 };
 
-/// Returns the current time, as "2026-01-31T12:34:56Z".
+/// Returns the current time in UTC, as "2026-01-31T12:34:56Z".
 std::string utc_now();
 
-/// Returns the libraries in use, on which the last digits of a result depend: "Eigen 3.4.0, FFTW
-/// 3.3.10, GSL 2.7.1, HDF5 1.10.8".
+/// Returns the names and versions of the libraries on which the last digits of a result depend,
+/// e.g. "Eigen 3.4.0, FFTW 3.3.10, GSL 2.7.1, HDF5 1.10.8".
 std::string library_versions();
 
-/// Returns the libraries that read surface files: "libzip 1.7.3, zlib 1.2.13, pugixml 1.13".
+/// Returns the names and versions of the libraries that read surface files, e.g. "libzip 1.7.3,
+/// zlib 1.2.13, pugixml 1.13".
 std::string reader_versions();
 
 }  // namespace salebra

@@ -16,41 +16,41 @@
 
 namespace salebra {
 
-/// Returns the positions of the rows or columns of a grid, m: 0, step, 2 step, …
+/// Returns the positions k·step of the rows or columns k = 0 to count − 1 of a grid, m.
 std::vector<double> positions(Index count, double step);
 
-/// One group of a ResultFile, with coordinates and datasets on them. xarray opens it with
-/// xarray.open_dataset(file, engine="h5netcdf", group=…). Every dataset has `units` (SI, "1" for
+/// One group of a ResultFile, with coordinates and datasets on them. xarray opens a group with
+/// xarray.open_dataset(file, engine="h5netcdf", group=name). Every dataset has `units` (SI, "1" for
 /// pure numbers) and a `long_name`; unknown values are NaN.
 /// throws   InvalidInput for a name used twice, a missing unit, or values without the shape of
 ///          their coordinates; IoError if the disk is full
 class ResultGroup {
  public:
-  /// A one-dimensional coordinate, an HDF5 dimension scale.
+  /// Writes a one-dimensional coordinate, which becomes an HDF5 dimension scale.
   void coordinate(const std::string& name, std::span<const double> values, const std::string& units,
                   const std::string& long_name);
-  /// The coordinate 0, 1, …, count − 1.
+  /// Writes a coordinate with the integers from 0 to count − 1.
   void index(const std::string& name, std::size_t count, const std::string& long_name);
-  /// A coordinate of names, such as those of models.
+  /// Writes a coordinate of texts, such as names of models.
   void labels(const std::string& name, const std::vector<std::string>& values,
               const std::string& long_name);
 
-  /// Values on coordinates of this group, the last one contiguous.
+  /// Writes values on coordinates of this group; the last coordinate varies fastest.
   void dataset(const std::string& name, std::span<const double> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
   void dataset(const std::string& name, std::span<const std::int64_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// Single precision and small integers suffice for images.
+  /// Writes values in single precision or as small integers, which suffices for images.
   void dataset(const std::string& name, std::span<const float> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
   void dataset(const std::string& name, std::span<const std::int16_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// Writes a field on the coordinates x and y. In a file of several processes it has the rows of
-  /// this one according to Share, and must exist until commit().
+  /// Writes a field on the coordinates x and y. In a file of several processes, `values` has the
+  /// rows of this process according to RowPartition, and must exist until commit().
   void dataset(const std::string& name, const Field& values, const std::string& x,
                const std::string& y, const std::string& units, const std::string& long_name,
                FieldType type = FieldType::float64);
@@ -75,19 +75,20 @@ class ResultGroup {
   std::shared_ptr<Place> location_;
 };
 
-/// HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …), with
-/// provenance at its root.
+/// HDF5 file of results, with a group for each stage (for example `surface`, `curve`, `fit`,
+/// `damping`) and the provenance at its root.
 ///     ResultFile file("result.h5", {});
 ///     file.group("fit").scalar("decay_length", 1e-7, "m", "decay length");
 ///     file.commit();
-/// The file appears complete at commit(); without commit nothing remains. Use by one thread at a
-/// time.
+/// The file appears, complete, at commit(); without commit() no file remains. Only one thread may
+/// use an object at a time.
 class ResultFile {
  public:
-  /// Throws as require_output does; IoError if the disk is full.
-  /// ranks  processes that share fields. Each makes the same calls; the root writes everything
-  ///        except the rows of the others. A failure before commit() affects one process only: use
-  ///        collectively() to report it
+  /// Throws InvalidInput and IoError wherever require_output does; IoError if the disk is full.
+  /// communicator  processes that share fields. Each process makes the same calls; the root writes
+  ///               everything except the rows of fields that other processes hold. A failure before
+  ///               commit() is thrown in one process only: use collectively() to report it to all
+  ///               processes
   ResultFile(const std::filesystem::path& file, const Provenance& provenance,
              const WriteOptions& options = {}, const Communicator& communicator = {});
   ResultFile(ResultFile&&) noexcept;
@@ -97,8 +98,8 @@ class ResultFile {
   /// Returns the group at a path, such as "damping" or "realisations/3", and creates it if
   /// necessary.
   ResultGroup group(const std::string& path);
-  /// Closes the file and gives it its name. Collective; a failure in one process is thrown on all,
-  /// and nothing remains. The file and its groups cannot be used afterwards.
+  /// Closes the file and gives it its final name. Collective; a failure in one process is thrown in
+  /// all processes, and no file remains. The file and its groups cannot be used afterwards.
   void commit();
 
  private:
@@ -108,7 +109,8 @@ class ResultFile {
 
 /// Reads files of ResultFile, or any HDF5 file of real numbers. Paths are like "curve/pressure":
 ///     const double length = ResultReader("result.h5").number("fit/decay_length");
-/// throws   InvalidInput naming the file, for data that are missing, of another kind, or damaged
+/// throws   InvalidInput, whose message names the file, for data that are missing, of another type,
+///          or damaged
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& file);
@@ -132,8 +134,8 @@ class ResultReader {
   /// Returns the names of the coordinates of a dataset.
   std::vector<std::string> coordinates(const std::string& dataset) const;
 
-  /// Reads an attribute of a group or dataset; "/" is the root. Empty if there is none of that name
-  /// and kind.
+  /// Reads an attribute of a group or dataset; "/" is the root. Empty if there is no attribute of
+  /// that name and type.
   std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
   std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
   /// Returns the names of the attributes of a group or dataset in their order, without those that

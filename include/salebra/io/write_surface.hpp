@@ -19,18 +19,19 @@ namespace salebra {
 ///   .gsf        Gwyddion Simple Field: heights rounded to float32. `periodic` is lost
 ///   .txt .asc   matrix with Gwyddion's header, a row for each y; undefined points as nan; 17
 ///               digits, so that reading gives the same doubles. `periodic` is lost
-///   .xyz        points (x, y, z), undefined ones as nan; at least two lines in each direction,
-///   half
-///               of the grid defined. Sizes may change in their last digits. `periodic` is lost
-/// read_surface reads all of them. A surface distributed over processes gives the same HDF5 file as
-/// one process, byte for byte except for the dates; collective. Throws InvalidInput for another
-/// extension, an invalid surface, and as require_output does; IoError if the system refuses. Cost:
-/// one pass; memory in addition to the heights: one row; for .h5 the file.
+///   .xyz        points (x, y, z), undefined points as nan; needs at least two lines in each
+///               direction and half of the points defined. Sizes may change in their last digits.
+///               `periodic` is lost
+/// read_surface reads all these formats. A surface distributed over processes gives the same HDF5
+/// file as one process, byte for byte except for the dates; collective. Throws InvalidInput for
+/// another extension, for an invalid surface, and wherever require_output does; IoError if the
+/// operating system refuses. Cost: one pass over the heights; memory, in addition to the heights,
+/// for one row, or for .h5 for the whole file.
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance = {}, const WriteOptions& options = {});
 
-/// Checks the extension before a long computation. Throws InvalidInput if write_surface would
-/// reject it.
+/// Checks the extension of a file name before a long computation. Throws InvalidInput if
+/// write_surface would reject the extension.
 void require_surface_name(const std::filesystem::path& file);
 
 }  // namespace salebra

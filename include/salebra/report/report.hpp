@@ -10,9 +10,9 @@ namespace salebra {
 
 struct ReportOptions {
   WriteOptions write = {};
-  std::string title = {};  ///< empty: origin of the surface
-  /// Result files of `oscillate` for the same surface and motion: direct results to show with the
-  /// damping curves.
+  std::string title = {};  ///< title of the report; empty: origin of the surface
+  /// Result files of the command `oscillate` for the same surface and motion, to be shown as direct
+  /// results in the figures of damping.
   std::vector<std::filesystem::path> direct = {};
 };
 
@@ -20,19 +20,19 @@ struct ReportOptions {
 bool can_report();
 
 /// Checks that a report can be written, before a long computation: throws IoError if can_report()
-/// is false, and InvalidInput as require_output does.
+/// is false, and InvalidInput wherever require_output does.
 void require_report(const std::filesystem::path& html, const WriteOptions& options = {});
 
 /// Writes one HTML file from the results of `study` or `compare`:
 ///     write_report("study.h5", "study.html");
 /// It shows conclusion and warnings first, then the surface, force over mean gap with the fit and
 /// its residuals, all models, damping with bands, settings and provenance; every figure includes
-/// its numbers as a table and as CSV. The file loads nothing: it contains plotly.js, data and maps
-/// (at most 512 × 512 points in total), a few MB. Data that older results files lack are named as
-/// absent. The file appears complete or not at all.
+/// its numbers as a table and as CSV. The HTML file loads nothing from elsewhere: it contains
+/// plotly.js, the data and the maps (at most 512 × 512 points in total), a few MB. If an older
+/// results file lacks some data, the report says so. The HTML file appears complete or not at all.
 /// throws  InvalidInput for a file that is missing, damaged or contains no study, for direct
-///         results of another normal amplitude or with several points of a parameter grid, and as
-///         require_report
+///         results of another normal amplitude, for direct results together with several points of
+///         a parameter grid, and wherever require_report does
 /// cost    reading the data of the report; about 0.1 s
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
                   const ReportOptions& options = {});

@@ -22,8 +22,8 @@ struct CurveColumn {
   std::vector<double> values;
 };
 
-/// Converts described structs, one for each sample, to columns; columns without any value are
-/// omitted, and a boolean true is 1.
+/// Converts described structs, one for each sample of a curve, to additional columns. Columns
+/// without any value are omitted; a boolean true becomes 1.
 template <Described T>
 std::vector<CurveColumn> columns_beside(const std::vector<T>& of_samples) {
   std::vector<CurveColumn> columns;
@@ -44,24 +44,25 @@ std::vector<CurveColumn> columns_beside(const std::vector<T>& of_samples) {
 void write_force_curve(ResultGroup& group, const ForceCurve& curve,
                        const std::vector<CurveColumn>& beside = {});
 
-/// Reads a curve from that group, or that of the first model (boundary elements) from that group of
-/// a study of one surface. Throws InvalidInput without a curve, or with those of several surfaces.
+/// Reads a curve from a group that write_force_curve() wrote, or the curve of the first model
+/// (boundary elements) from the group `curve` of a study of one surface. Throws InvalidInput if the
+/// group has no curve, or curves of several surfaces.
 ForceCurve read_force_curve(const ResultReader& reader, const std::string& group = "curve");
 
-/// Read the curves of the first model for all surfaces of a study, or the one curve of any other
-/// group or file. Throw InvalidInput without a curve.
+/// Read the curves of the first model (boundary elements) for all surfaces of a study, or the
+/// single curve of any other group or file. Throw InvalidInput if there is no curve.
 std::vector<ForceCurve> read_force_curves(const ResultReader& reader,
                                           const std::string& group = "curve");
 std::vector<ForceCurve> read_force_curves(const std::filesystem::path& file);
 
 /// Writes a file with one curve, e.g. `write_force_curve("curve.csv", curve)`: .h5 and .hdf5 with
-/// the group `curve`, .csv and .txt as text in the form that read_force_curve accepts. Throws as
+/// the group `curve`, .csv and .txt as text that read_force_curve can read. Throws wherever
 /// write_surface does.
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
                        const Provenance& provenance = {}, const WriteOptions& options = {},
                        const std::vector<CurveColumn>& beside = {});
 
-/// Throws InvalidInput for a name whose format write_force_curve() does not know.
+/// Throws InvalidInput for a file name whose extension write_force_curve() does not know.
 void require_curve_name(const std::filesystem::path& file);
 
 /// Reads a curve from an HDF5 file (group `curve`) or from text, e.g.
@@ -71,12 +72,12 @@ void require_curve_name(const std::filesystem::path& file);
 ///     pressure [MPa], mean_gap [nm], normal_stiffness [N/um], converged
 ///     0.1, 350, 12, 1
 /// Values are separated by blanks, ';' or ','; an empty field or nan is unknown; columns with other
-/// names are ignored. Lines "# model: …", "# nominal_area: …", "# rms_height: …" may precede. If
-/// the nominal area is known, force and pressure determine each other. Samples are sorted by
-/// increasing force.
-/// throws   InvalidInput naming the file (and line) for a table without rows, without a force or
-///          pressure, without an indentation, mean gap or separation, or with a unit of another
-///          dimension
+/// names are ignored. Lines that start with "# model:", "# nominal_area:" or "# rms_height:" may
+/// precede the table. If the nominal area is known, force is computed from pressure or pressure
+/// from force. Samples are sorted by increasing force.
+/// throws   InvalidInput, whose message names the file (and line), for a table without rows,
+///          without a force or pressure, without an indentation, mean gap or separation, or with a
+///          unit of another dimension
 ForceCurve read_force_curve(const std::filesystem::path& file);
 
 }  // namespace salebra

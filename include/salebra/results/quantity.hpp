@@ -11,7 +11,7 @@ namespace salebra {
 /// unlisted name returns a dimensionless quantity with the name as its long name.
 Quantity find_quantity(std::string_view name);
 
-/// Returns true if a name is listed.
+/// Returns true if a name is in the glossary.
 bool is_quantity(std::string_view name);
 
 }  // namespace salebra

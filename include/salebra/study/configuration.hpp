@@ -10,9 +10,9 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/conductance.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/read_surface.hpp>
@@ -44,10 +44,10 @@ enum class ContactModel {
   gw_jkr
 };
 
-/// A contact model with its name in files, JSON and study files (that of the enumerator), its title
-/// for people, its cost per cell and pressure, s, on the machine of estimate_cost(), and the
-/// function that presses a surface with it. A new model is an enumerator and an entry in
-/// src/study/contact_models.cpp.
+/// A contact model: its name in files, JSON and study files (that of the enumerator), its title for
+/// people, its cost in seconds per cell and pressure on the machine for which estimate_cost() is
+/// calibrated, and the function that computes the contact of a surface with the model. A new model
+/// is an enumerator and an entry in src/study/contact_models.cpp.
 struct StudyModel {
   ContactModel id;
   const char* name;
@@ -59,15 +59,15 @@ struct StudyModel {
 /// Returns all contact models.
 std::span<const StudyModel> contact_models();
 
-/// Finds a model by its name. Throws InvalidInput "models: …" for an unknown name.
+/// Finds a model by its name. Throws InvalidInput for the field "models" for an unknown name.
 ContactModel contact_model(std::string_view name);
 std::string_view name_of(ContactModel model);
 /// Returns all models without adhesion.
 std::vector<ContactModel> all_contact_models();
 /// Whether the summits of a model adhere.
 constexpr bool is_adhesive(ContactModel model) { return model >= ContactModel::gw_dmt; }
-/// Returns the named models, each once, and the boundary elements, which are the reference for the
-/// others.
+/// Returns the named models, each once, and in any case the boundary elements, which are the
+/// reference for all other models.
 std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
@@ -75,19 +75,20 @@ enum class GenerationMethod { filtered_noise, random_phase };
 /// An ensemble of random surfaces, one for each seed.
 struct GeneratedSurfaces {
   Grid2D grid;
-  SelfAffineParameters spectrum;  ///< ignored where there are tables
+  SelfAffineParameters spectrum;  ///< not used if there are tables
   GenerationMethod method = GenerationMethod::filtered_noise;
   std::vector<std::uint64_t> seeds;  ///< at least one
-  /// Replace the self-affine spectrum. A single table holds for all surfaces. With several, the
-  /// first defines the scale of the loads; the others are equally likely draws of a surface twin,
-  /// assigned to the surfaces by their seeds, the same to two consecutive ones. Pairs with one
-  /// spectrum separate what the scans leave open from the variation from place to place.
+  /// Tabulated spectra that replace the self-affine spectrum. A single table holds for all
+  /// surfaces. If there are several tables, the first one defines the scale of the loads; all later
+  /// tables are equally likely draws of a surface twin, assigned to the surfaces by their seeds so
+  /// that two consecutive seeds share a table. Such pairs separate the uncertainty that the scans
+  /// leave open from the variation from place to place.
   std::vector<SpectrumTable> tables = {};
 
-  /// Returns the spectrum of the first table, or the self-affine one.
+  /// Returns the spectrum of the first table or, without tables, the self-affine spectrum.
   std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
   std::unique_ptr<const IsotropicSpectrum> spectrum_of(std::uint64_t seed) const;
-  /// Index of the table of a seed; 0 where all have the same.
+  /// Index of the table of a seed; 0 if all seeds have the same spectrum.
   std::size_t table_of(std::uint64_t seed) const;
 };
 
@@ -121,7 +122,8 @@ constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
        &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill, &S::channel);
 }
 
-/// Parameters to vary; an empty list keeps the value of the surface table.
+/// Surface parameters to vary. A parameter whose list is empty keeps its value in the table
+/// [surface] of the study file.
 struct ParameterLists {
   std::vector<double> hurst;
   std::vector<double> rolloff, short_cutoff;  ///< wavelengths, m
@@ -142,8 +144,8 @@ constexpr void describe(auto&& visit, std::type_identity<ParameterLists>) {
 /// Adhesion of the contacts of a study, and the loading cycle of each surface.
 struct AdhesionPlan {
   Adhesion adhesion;
-  std::vector<double> cycle = {};  ///< mean gaps, m, from the widest; empty: no cycle
-  bool force_coarse = false;       ///< see AdhesiveContactOptions
+  std::vector<double> cycle = {};  ///< mean gaps, m, the widest first; empty: no cycle
+  bool force_coarse = false;       ///< as AdhesiveContactOptions::force_coarse
 };
 
 constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
@@ -155,46 +157,49 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
 struct StudyConfiguration {
   std::variant<GeneratedSurfaces, MeasuredSurface> surfaces;
   Material material;  ///< including G*
-  std::vector<double>
-      pressures;  ///< of the BEM sweep, increasing: Pa, or in units of E*h'_rms if relative
+  /// Pressures of the sweep with boundary elements, increasing: in Pa or, if relative_pressures is
+  /// true, in units of E*h'_rms.
+  std::vector<double> pressures;
   bool relative_pressures = false;
-  /// Leaves out pressures above half of the hardness, where half of the surface would be flat,
-  /// instead of refusing them. For pressures that the user did not choose.
+  /// true: leaves out pressures above half of the hardness, at which half of the surface would be
+  /// flat; false: refuses them. Meant for pressures that the user did not choose.
   bool pressures_below_hardness = false;
-  double tolerance = 1e-8;  ///< error e_c of each contact
+  double tolerance = 1e-8;  ///< NormalContactOptions::tolerance of each contact
   /// Computes K_t of the boundary-element curve by a stick solve on each contact; false:
-  /// K_t = (G*/E*)K. Only the latter is possible for moduli that no elastic body has.
+  /// K_t = (G*/E*)K. Moduli that no elastic body has require false.
   bool stick = true;
-  std::optional<PressureWindow>
-      window;                   ///< for the exponential fit; empty: 1 … 2.5 h_rms in mean gap
+  /// Window of the exponential fit; empty: mean gaps from 1 to 2.5 h_rms.
+  std::optional<PressureWindow> window;
   ParameterLists ensemble;      ///< for generated surfaces only
   double target_precision = 0;  ///< relative precision at which an ensemble ends; 0: use all seeds
-  int min_realisations = 8;     ///< >= 2, before the precision is checked
-  /// Must contain the boundary elements, which are the reference for the others.
+  int min_realisations = 8;     ///< >= 2; realisations before the precision is checked
+  /// Contact models. They must include the boundary elements, which are the reference for all other
+  /// models.
   std::vector<ContactModel> models = {ContactModel::bem, ContactModel::gw_moments,
                                       ContactModel::gw_deterministic};
-  /// The models of `salebra compare`.
+  /// Contact models that the command `salebra compare` computes.
   std::vector<ContactModel> compared_models = all_contact_models();
 
   bool has(ContactModel model) const;
   /// Whether surfaces are drawn from a surface twin.
   bool of_twin() const;
-  /// For the conductance of the contacts; does not affect what is computed for a surface.
+  /// Conductivities and resistivities for the conductance of the contacts; they do not affect any
+  /// other result.
   Conduction conduction = {};
-  bool flow_factors = false;  ///< computes them for each contact of the boundary elements
-  /// Makes the boundary elements adhere, each load following from the one below, and the summits of
-  /// gw_dmt and gw_jkr. Such a study has no damping: the motion is ignored.
+  bool flow_factors = false;  ///< true: flow factors of each boundary-element contact
+  /// Adhesion of the boundary elements, where each load starts from the next smaller load, and of
+  /// the summits of gw_dmt and gw_jkr. A study with adhesion has no damping: the motion is ignored.
   std::optional<AdhesionPlan> adhesion = {};
   Oscillation motion;
   DampingOptions damping;
-  /// Friction, hardness, density and excursion, for the assumptions of the damping. With a hardness
-  /// each surface is first loaded to the largest pressure (after_first_loading()), and the study is
-  /// that of the residual surface.
+  /// Contact parameters (friction, hardness, density, excursion) for the loss and its assumptions.
+  /// With a hardness each surface is first loaded to the largest pressure (after_first_loading()),
+  /// and all results are those of the residual surface.
   ContactParameters known;
-  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty:
-  /// 4, doubled for a single surface where they do not suffice. With 0 the loss of the boundary
-  /// elements, as that of every other model, is computed from their curve between loads, without an
-  /// error.
+  /// Number of intervals between the contacts solved inside the oscillation, as
+  /// SurfaceDampingOptions::intervals. Empty: 4, doubled for a single surface as long as the error
+  /// requires it. 0: the loss of the boundary elements is computed from their force curve,
+  /// interpolated between loads, as for all other models; it then has no error.
   std::optional<int> intervals = {};
   double relative_error =
       0;  ///< target for each damping constant, reached by halving the cells; 0: none
@@ -219,7 +224,8 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 
-/// Sentence on why a study with adhesion has no damping, to follow the name of the input.
+/// Text that says why a study with adhesion has no damping; in messages it follows the name of the
+/// input.
 extern const char* const no_damping_with_adhesion;
 
 /// Reads a study from a TOML file; the README of data/ explains each key by example. Quantities are
@@ -227,8 +233,8 @@ extern const char* const no_damping_with_adhesion;
 ///
 ///     StudyConfiguration study = read_study_configuration("study.toml");
 ///
-/// throws  InvalidInput "FILE:LINE: table.key: …" for an unknown key, a missing one, a wrong type
-///         or a value out of range
+/// throws  InvalidInput, whose message starts with "FILE:LINE: table.key", for an unknown or
+///         missing key, a wrong type or a value out of range
 StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 
 /// Reads a study from text. `name` replaces the file in error messages; relative paths start from
@@ -236,16 +242,17 @@ StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder = ".");
 
-/// Returns the configurations of all combinations of the ensemble's lists, with the last parameter
-/// (points) changing fastest and their own lists empty; without lists the configuration itself.
-/// Throws InvalidInput for a combination that no grid can represent and, before it makes any, for
-/// more than 10 000 combinations or 256 MB of settings.
+/// Returns one configuration for each combination of the parameters in configuration.ensemble, with
+/// the last parameter (points) changing fastest; the lists in these configurations are empty.
+/// Without lists it returns the configuration itself. Throws InvalidInput for a combination that no
+/// grid can represent, and for more than 10 000 combinations or 256 MB of settings.
 std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration& configuration);
 
-/// Formats the varied parameters of a point, "H = 0.5, roll-off 1.25 µm, …"; empty without lists.
+/// Formats the varied parameters of a point of the parameter grid, e.g. "H = 0.5, roll-off 1.25
+/// µm"; empty without lists.
 std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point);
 
-/// Returns the configuration with its surfaces replaced by a measured one.
+/// Returns the configuration with its surfaces replaced by the given measured surface.
 StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface);
 
 }  // namespace salebra

@@ -21,22 +21,26 @@
 
 namespace salebra {
 
-/// The loss at one pressure of a curve, with two small-amplitude forms without slip.
+/// The loss at one pressure of a force curve, and two small-amplitude forms of it without slip.
 ///
-/// For boundary elements it comes from contacts solved inside the oscillation (surface_damping());
-/// for other models from their curve with smoothly joined loads, NaN where the motion leaves it.
-/// For a single surface a number is NaN if it is no larger than its error.
+/// For boundary elements the loss comes from contacts solved inside the oscillation
+/// (surface_damping()); for all other models it comes from a smooth interpolation of their force
+/// curve, and is NaN if the motion leaves the range of the curve. For a single surface a number is
+/// NaN if it is no larger than its error.
 struct DampingPoint : Loss {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
-  /// Eq. (16), or (12) with F'' = F/l², with l fitted to the curve.
+  /// Eq. (16) for a Drag, or Eq. (12) with F'' = F/l² for an EqualFrequency, with the decay length
+  /// l fitted to the curve.
   double work_per_cycle_closed_form = unknown;    ///< J
   double damping_constant_closed_form = unknown;  ///< N s/m
-  /// Eq. (15) or (12) with F'' of the curve itself: small amplitudes, no fitted law.
+  /// Eq. (15) for a Drag or Eq. (12) for an EqualFrequency with F'' of the curve itself, without a
+  /// fitted law.
   double small_amplitude_work = unknown;              ///< J
   double small_amplitude_damping_constant = unknown;  ///< N s/m
 
   const ErrorBudget& error_by_cause() const { return error; }
+  /// Relative deviation of the loss by the fitted law from the loss without slip.
   double deviation() const { return work_per_cycle_closed_form / work_per_cycle_without_slip - 1; }
 };
 
@@ -65,31 +69,34 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
 struct ModelResult {
   ContactModel model = ContactModel::bem;
   ForceCurve curve = {};
-  ExponentialFit fit =
-      {};  ///< unknown for fewer than three points in the window, and so is the law's damping
-  /// Curvature of the law over the window of the fit; unknown for fewer than four points.
+  /// Exponential fit of the curve; NaN for fewer than three points in the window, and so is the
+  /// damping by the fitted law.
+  ExponentialFit fit = {};
+  /// Test for curvature of ln p over the window of the fit; NaN for fewer than four points.
   ExponentialTest test = {};
   WindowSensitivity sensitivity = {};
   LocalDecayLength local{};
-  /// l of a fit with equal weights of all loads, m; see FitWeights.
+  /// Decay length of a fit with equal weights of all loads, m; see FitWeights.
   double decay_length_equal_weights = ForceSample::unknown;
-  /// κ of A/A0 = κ p/(E*h') with h' of the surface: least squares through the origin over loads of
-  /// 0.002 to 0.05 E*h'.
+  /// Area slope κ of A/A0 = κ p/(E*h') with the rms slope h' of the surface: least squares through
+  /// the origin over pressures of 0.002 to 0.05 E*h'.
   double area_slope = ForceSample::unknown;
-  /// α of K = αF/h_rms: least squares through the origin over the pressures of the fit; h_rms/l
-  /// where the exponential law holds.
+  /// Coefficient α of K = αF/h_rms: least squares through the origin over the pressures of the fit;
+  /// it equals h_rms/l if the exponential law holds.
   double stiffness_coefficient = ForceSample::unknown;
-  /// u0 of Persson's p ∝ exp(−ū/u0), m, for ContactModel::persson; it is also that of K = pA0/u0 of
-  /// Campañá, Persson and Müser.
+  /// Decay length u0 of Persson's p ∝ exp(−ū/u0), m, for ContactModel::persson; the same u0 appears
+  /// in K = pA0/u0 of Campañá, Persson and Müser.
   double asymptotic_decay_length = ForceSample::unknown;
-  /// Pull-off pressure of the adhesive models, Pa; for boundary elements, from the cycle.
+  /// Pull-off pressure of the adhesive models, Pa; for boundary elements, from their adhesive
+  /// cycle.
   double pull_off_pressure = ForceSample::unknown;
-  std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
+  std::vector<DampingPoint> damping = {};  ///< loss at each sample of the curve
 
-  /// Deviation from F ∝ exp(−ū/l) over the window of the fit: l at its far end over l at its close
-  /// end, minus 1, by the parabola of test_exponential(); unknown for fewer than four points.
+  /// Deviation from F ∝ exp(−ū/l) over the window of the fit: l at the largest mean gap over l at
+  /// the smallest mean gap of the window, minus 1, by the parabola of test_exponential(); NaN for
+  /// fewer than four points.
   double law_bend() const;
-  /// Lengths over h_rms:
+  /// Decay lengths divided by h_rms of the surface:
   double decay_length_at_min_gap_over_rms_height() const {
     return test.decay_length_at_min_gap / curve.rms_height;
   }
@@ -157,13 +164,14 @@ constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
 
 /// Contact patches of the boundary elements at one pressure.
 struct SpotStatistics {
-  double spot_count = ForceSample::unknown;
-  double corrected_area_fraction = ForceSample::unknown;  ///< see ContactSpots
-  double max_spot_area = ForceSample::unknown;        ///< m²
-  double mean_spot_area = ForceSample::unknown;           ///< m²
-  std::vector<double> spots_by_size;  ///< patches of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
+  double spot_count = ForceSample::unknown;               ///< number of contact patches
+  double corrected_area_fraction = ForceSample::unknown;  ///< ContactSpots::corrected_area_fraction
+  double max_spot_area = ForceSample::unknown;            ///< of the largest patch, m²
+  double mean_spot_area = ForceSample::unknown;           ///< mean over the patches, m²
+  /// Number of patches by size: entry k, counted from 0, holds patches of 2^k to 2^(k+1) − 1 cells.
+  std::vector<double> spots_by_size;
 
-  /// Area of the largest patch over that of all.
+  /// Area of the largest patch over the area of all patches.
   double max_spot_share() const { return max_spot_area / (spot_count * mean_spot_area); }
 };
 
@@ -181,10 +189,10 @@ constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
   visit(&S::spots_by_size, Quantity{"spots_by_size", dimensionless,
                                     "contact spots of min_cells to twice as many cells"});
   visit(&S::max_spot_share, Quantity{"max_spot_share", dimensionless,
-                                         "area of the largest contact spot over that of all"});
+                                     "area of the largest contact spot over that of all"});
 }
 
-/// Adhesive contact at one mean gap of a cycle, loading and unloading.
+/// Adhesive contact at one mean gap of a cycle, during loading and during unloading.
 struct AdhesionSample {
   double loading_pressure = ForceSample::unknown;  ///< Pa; < 0: attraction
   double unloading_pressure = ForceSample::unknown;
@@ -207,7 +215,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionSample>) {
                  "contact area over nominal area when surfaces are drawn apart"});
 }
 
-/// The adhesive cycle of one surface; unknown where a contact did not converge.
+/// The adhesive cycle of one surface; NaN where a contact did not converge.
 struct AdhesionOfSurface : AdhesiveCycleNumbers {
   std::vector<AdhesionSample> samples;  ///< for each mean gap
 };
@@ -218,39 +226,40 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionOfSurface>) {
 }
 
 /// Data to plot one surface of a study: heights, contacts, spectrum and height distribution. Maps
-/// hold every stride-th point along either axis, at most picture_side of them: a sample of points
-/// has the height distribution and, on average, the contact area of all points, while averages over
-/// blocks have not.
+/// hold every stride-th point along each axis, at most picture_side points per axis. Single points
+/// are used instead of averages over blocks because they keep the height distribution and, on
+/// average, the contact area of the surface.
 struct SurfacePicture {
   static constexpr Index picture_side = 512;
 
   std::string origin;  ///< file, or generator with its seed
   Index stride = 0;    ///< 0: no picture
   Index nx = 0, ny = 0;
-  double step_x = 0, step_y = 0;  ///< between points of the maps, m
-  std::vector<float> heights;     ///< (nx, ny), y contiguous, less the mean of the surface, m
+  double step_x = 0, step_y = 0;  ///< distance of points of the maps, m
+  std::vector<float> heights;     ///< (nx, ny), y contiguous, from the mean height, m
   std::vector<std::int16_t>
       first_load;         ///< index of the smallest load at which a point touches; −1: none
-  Index mapped_load = 0;  ///< index of the load of the next two maps
+  Index mapped_load = 0;  ///< index of the load of contact_pressure and gap
   std::vector<float>
       contact_pressure;    ///< (nx, ny), Pa; empty until boundary elements have solved that load
-  std::vector<float> gap;  ///< (nx, ny), of the deformed surfaces, m
+  std::vector<float> gap;  ///< (nx, ny), gap of the deformed surfaces, m
 
   std::vector<double> wavenumber, psd;  ///< radial spectrum C, rad/m and m⁴
-  std::vector<double> law_psd;          ///< NaN outside the range of the law
-  std::string law;                      ///< origin of the law; empty: no law
+  std::vector<double> law_psd;          ///< C of the self-affine law, m⁴; NaN outside its range
+  std::string law;                      ///< origin of law_psd; empty: no law
   double hurst = 0, hurst_low = 0,
          hurst_high = 0;  ///< estimate with its 95 % interval; NaN: no self-affine range
 
   std::vector<double> height, height_density;  ///< histogram, m and 1/m
 
   bool empty() const { return stride == 0; }
-  /// Marks the points that carry pressure under the load with index k, and takes the maps of one
-  /// load. Of a surface spread over processes, each has its rows of these maps.
+  /// Marks the points that carry pressure under the load with index k; if k is mapped_load, also
+  /// stores the maps of pressure and gap. If the surface is distributed over processes, each
+  /// process has its rows of the maps.
   void add_contact(std::int16_t k, const NormalContactState& state, const Surface& surface);
-  /// Collects the maps in the first process. Collective.
+  /// Collects the rows of the maps from all processes in the first process. Collective.
   void gather(const Communicator& communicator);
-  /// Rows of the maps by process.
+  /// Distribution of the rows of the maps over the processes of a surface.
   RowPartition rows_of(const Surface& surface) const;
 };
 
@@ -287,13 +296,14 @@ constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
         Quantity{"height_density", inverse_length, "share of the points in a bin over its width"});
 }
 
-/// Whether this surface gets the picture: the first seed of a study, or the measured surface.
+/// Whether the surface of this seed gets a SurfacePicture: only the first seed of a study does, or
+/// the measured surface.
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
 
-/// Makes the picture, still without contacts. The law of a generated surface is its input; for any
-/// other surface it is a power law through the self-affine range. The distribution is that of the
-/// points of the maps. A surface may be spread over processes; the first one gets the picture.
-/// Collective. Cost: one FFT.
+/// Makes the picture of a surface, without contacts, which add_contact() adds. law_psd of a
+/// generated surface is its input spectrum; for a measured surface it is a power law fitted to the
+/// self-affine range. The height distribution is that of the points of the maps. If the surface is
+/// distributed over processes, the first process gets the picture. Collective. Cost: one FFT.
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
 
 /// Everything computed for one surface.
@@ -301,28 +311,30 @@ struct Realisation {
   std::uint64_t seed = 0;  ///< 0 for a measured surface
   Grid2D grid;
   bool periodic = true;
-  double seam_step = 0;  ///< rms difference of opposite edges over rms height
-  /// Set where a hardness is known; everything below is then that of the residual surface.
+  double seam_step = 0;  ///< rms height difference of opposite edges over h_rms
+  /// First loading, if a hardness is known; all members that follow then describe the residual
+  /// surface.
   FirstLoading first_loading;
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
-  SummitEnsemble ensemble;            ///< for the Greenwood–Williamson theory, from the moments
-  std::vector<ModelResult> models;    ///< of the configuration, in the order of contact_models()
+  SummitEnsemble ensemble;            ///< for Greenwood–Williamson, from `moments`
+  std::vector<ModelResult> models;    ///< of configured models, in the order of contact_models()
   std::vector<SpotStatistics> spots;  ///< for each pressure
-  /// Flow factors at each pressure, where the configuration wants them; unknown where the contact
-  /// or the flow did not converge.
+  /// Flow factors at each pressure, if the configuration requests them; NaN where the contact or
+  /// the flow did not converge.
   std::vector<FlowFactors> flow;
-  AdhesionOfSurface adhesion;  ///< where the configuration has a cycle
-  double corrected_area_slope = ForceSample::
-      unknown;             ///< κ of the boundary elements with the area corrected by its perimeter
-  SurfacePicture picture;  ///< of one realisation per study, see wants_picture(); otherwise empty
+  AdhesionOfSurface adhesion;  ///< if the configuration has an adhesive cycle
+  /// Area slope κ of the boundary elements, with the contact area corrected by its perimeter
+  /// (ContactSpots).
+  double corrected_area_slope = ForceSample::unknown;
+  SurfacePicture picture;  ///< empty unless wants_picture() is true for this surface
 
-  /// Whether its moments can be those of a random surface. A smooth shape may have a Nayak
-  /// parameter below 1; models that take their summits from the moments then have no curve.
+  /// Whether the moments can be those of a random surface. A smooth shape may have a Nayak
+  /// parameter below 1; models that derive their summits from the moments then have no force curve.
   bool has_random_summits() const { return !(moments.nayak() < 1); }
 
-  /// Returns the result of a model. Throws InvalidInput for one that was not run.
+  /// Returns the result of a model. Throws InvalidInput for a model that was not computed.
   const ModelResult& of(ContactModel model) const;
   ModelResult& of(ContactModel model);
 };
@@ -351,58 +363,63 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   visit(&S::picture, Kept{"picture", "heights, first contacts, spectrum, distribution"});
 }
 
-/// Whether K_t of the boundary elements comes from stick solves: the configuration wants them, and
-/// its moduli are those of an elastic body.
+/// Whether K_t of the boundary elements comes from stick solves, i.e. whether the configuration
+/// requests them and its moduli are those of an elastic body.
 bool stick_solves(const StudyConfiguration& configuration);
 
-/// Returns how the damping of one surface is computed. A single surface: with the cells halved
-/// once, or beyond 256 points compared with cells of twice the size. Several: with 4 intervals on
-/// the given cells, and the error of all from the first of them, by cells of twice the size. With a
-/// relative error: each with cells halved until it is reached.
+/// Returns how the damping of one surface is computed. For a single surface, the error comes from
+/// cells of half the size or, beyond 256 points per side, of twice the size. For several surfaces,
+/// each is computed with 4 intervals on the given cells, and the relative error of the first
+/// surface, from cells of twice the size, is used for all. If the configuration has a
+/// relative_error, the cells of each surface are halved until this error is reached.
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed);
 
 /// Returns the models of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
-/// Reads and detrends a scan for a study. Lines of warnings are added to `warnings`. Throws as
-/// read_surface(), and for undefined points.
+/// Reads and detrends a scan for a study. Warnings are added to the list `warnings`. Throws
+/// wherever read_surface() does, and for undefined points.
 Surface measured_surface(const MeasuredSurface& surface, const Communicator& communicator = {},
                          std::vector<std::string>* warnings = nullptr);
 
-/// Returns the surface of a seed, or the measured one, detrended as configured. Throws as
-/// generators and readers do. progress: of the generator. ranks: the processes over which the
-/// surface is spread, as in filtered_noise and read_surface; collective.
+/// Returns the surface of a seed, or the measured one, detrended as configured. Throws wherever the
+/// generators and read_surface do. progress: progress of the generator. communicator: the processes
+/// over which the surface is distributed, as in filtered_noise and read_surface; the call is then
+/// collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& communicator = {});
 
 /// The loads of a study, known before the computation.
 struct StudyLoads {
-  /// E*h'_rms, Pa, the unit of relative pressures: from the mean spectrum on the lattice without
-  /// random fluctuation, or from the measured surface.
+  /// E*h'_rms, Pa, the unit of relative pressures. h'_rms is the rms slope that the spectrum has on
+  /// the grid (without random scatter), or that of the measured surface.
   double contact_scale = 0;
   std::vector<double> pressures = {};  ///< of the sweep, Pa
   /// Warnings of read_surface(), warning_of_slope() and warning_of_pressure().
   std::vector<std::string> warnings = {};
 };
 
-/// Computes the loads. Throws InvalidInput for a window of the fit with fewer than three pressures,
-/// and for a hardness below the largest; and as readers do. ranks: the processes that read a
-/// measured surface together; collective. Cost: that of reading it.
-StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& communicator = {});
+/// Computes the loads of a study. Throws InvalidInput for a fit window with fewer than three
+/// pressures and for a hardness below the largest pressure, and wherever read_surface does.
+/// communicator: the processes that read a measured surface together; the call is then collective.
+/// Cost: that of reading the measured surface.
+StudyLoads study_loads(const StudyConfiguration& configuration,
+                       const Communicator& communicator = {});
 
 /// Computes everything for one surface: statistics, contact models, exponential law, damping.
 ///
 ///     Realisation one = analyse_realisation(study_surface(study, 1), study, 1, loads.pressures);
 ///
-/// The surface is study_surface() of the seed; the configuration has empty ensemble lists. With a
-/// hardness the surface is first loaded to the largest pressure and by the oscillation about it,
-/// and all results are those of the residual surface.
-/// progress  of this surface, "realisation"; a stop throws Interrupted
-/// throws    NotConverged where fewer than four contacts of a sweep converged, or the first loading
-///           did not
-/// The call is collective for a surface spread over processes: the first one gets the realisation,
-/// with the bits of one process, and the others their part of it.
+/// `surface` must be study_surface() of the seed; the ensemble lists of the configuration must be
+/// empty. With a hardness the surface is first loaded to the largest pressure plus the oscillation
+/// about it, and all results are those of the residual surface.
+/// progress  has the stage "realisation"; a stop throws Interrupted
+/// throws    NotConverged if fewer than four contacts of a sweep converged, or if the first loading
+///           did not converge
+/// If the surface is distributed over processes, the call is collective: the first process gets the
+/// complete realisation, with the same bits as in one process, and every other process gets its
+/// part.
 Realisation analyse_realisation(Surface surface, const StudyConfiguration& configuration,
                                 std::uint64_t seed, const std::vector<double>& pressures,
                                 const Progress& progress = {});

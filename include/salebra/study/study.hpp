@@ -18,8 +18,8 @@ namespace salebra {
 class StudyParts;
 struct Shard;
 
-/// A warning on a result: it is that of the residual surface, or it may be biased, not only
-/// scattered.
+/// A warning about an ensemble: its results are those of the residual surface, or they may have a
+/// systematic error in addition to their scatter.
 struct EnsembleWarning {
   std::string name;  ///< "first_loading", "finite_size", "discretisation", "twin" or "few_spots"
   std::string text;  ///< a sentence for the user
@@ -30,17 +30,18 @@ constexpr void describe(auto&& visit, std::type_identity<EnsembleWarning>) {
   visit(&EnsembleWarning::text, Kept{"text", "a sentence for the user"});
 }
 
-/// A mean with its 95 % interval; NaN limits if unavailable.
+/// A mean over surfaces with its 95 % interval, in the unit of the averaged number; the limits are
+/// NaN if there is no interval.
 struct EnsembleMean {
   double mean = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN();
   double high = std::numeric_limits<double>::quiet_NaN();
 
-  /// Half the width of the interval over |mean|; NaN without one.
+  /// Half the width of the interval over |mean|; NaN without an interval.
   double relative_precision() const;
 };
 
-/// The unit is that of the averaged number.
+/// The columns have no unit of their own: it is the unit of the averaged number.
 constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
   using S = EnsembleMean;
   visit(&S::mean, Kept{"mean", "mean over the surfaces"});
@@ -50,16 +51,16 @@ constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
         Kept{"relative_precision", "half the width of the interval over the mean"});
 }
 
-/// Whether the mean over the first `surfaces` of an ensemble is evaluated on its own, for a
-/// convergence curve and for the precision: every number from 2 to 128, and 32 numbers in each
-/// doubling beyond. With intervals for every number the time would grow with the square of the
-/// surfaces.
+/// Returns true if the mean over the first `surfaces` surfaces of an ensemble is evaluated, for the
+/// convergence curve and for checking the precision. This is so for every number from 2 to 128 and,
+/// above 128, for 32 numbers in each doubling. (If every number were evaluated, the time would grow
+/// with the square of the number of surfaces.)
 bool is_milestone(std::size_t surfaces);
 
-/// A mean with its numerical error (intervals, cells, stiffness ratio, seam), which is separate
-/// from its 95 % interval.
+/// A mean over surfaces with its numerical error (due to intervals, cells, stiffness ratio and
+/// seam), which is not part of its 95 % interval.
 struct StatedMean : EnsembleMean {
-  double error = ForceSample::unknown;  ///< NaN if unknown
+  double error = ForceSample::unknown;  ///< numerical error; NaN if unknown
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
@@ -67,9 +68,10 @@ constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
   visit(&StatedMean::error, Kept{"error", "numerical error of the mean"});
 }
 
-/// Deviation of the loss by the fitted law from that of the curve.
+/// Range over the pressures of the deviation of the loss by the fitted law from the loss by the
+/// curve.
 struct DeviationRange {
-  double deviation_min = 0, deviation_max = 0;  ///< of StudyResult::deviation(); NaN without any
+  double deviation_min = 0, deviation_max = 0;  ///< extremes of StudyResult::deviation(), or NaN
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DeviationRange>) {
@@ -84,11 +86,11 @@ constexpr void describe(auto&& visit, std::type_identity<DeviationRange>) {
 /// Predictions of closed theories for the surfaces of a study.
 struct StudyTheories {
   double bgt_area_slope = 0;              ///< slope of A/A0 over p/(E*h') as p → 0: √(2π)
-  double persson_area_slope = 0;          ///< √(8/π)
+  double persson_area_slope = 0;          ///< the same of Persson's theory: √(8/π)
   std::vector<double> relative_pressure;  ///< p/(E*h') of each pressure
-  std::vector<EnsembleMean> bearing_area_fraction;  ///< at the mean gaps of the boundary elements
-  /// u0/h_rms and K = pA0/u0 of Campañá, Persson and Müser; unknown and empty without
-  /// ContactModel::persson.
+  std::vector<EnsembleMean> bearing_area_fraction;  ///< at mean gaps of the boundary elements
+  /// Decay length u0 over h_rms, and K = pA0/u0 at each pressure, by Campañá, Persson and Müser;
+  /// without ContactModel::persson NaN and empty.
   EnsembleMean decay_length_over_rms_height;
   std::vector<EnsembleMean> normal_stiffness;
 };
@@ -113,89 +115,98 @@ constexpr void describe(auto&& visit, std::type_identity<StudyTheories>) {
 
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
-  StudyConfiguration configuration;  ///< of this point, with empty ensemble lists
+  StudyConfiguration configuration;  ///< configuration of this point; its ensemble lists are empty
   Grid2D grid;
   double contact_scale = 0;  ///< E*h'_rms, Pa: the unit of relative pressures
   std::vector<double> pressures;
   std::vector<Realisation> realisations;
   std::vector<std::string> warnings;  ///< sentences for the user
   std::vector<EnsembleWarning> ensemble_warnings;
-  bool interrupted = false;        ///< realisations has only the finished ones
-  bool precision_reached = false;  ///< fewer realisations than seeds sufficed
+  bool interrupted = false;        ///< true: `realisations` has only the finished surfaces
+  bool precision_reached = false;  ///< true: the precision was reached before all seeds
 
   std::vector<StudyModel> models() const { return models_of(configuration); }
-  /// Mean over realisations of a number of a realisation, or of a model on it.
+  /// Mean over realisations of a number of the realisation, or of a number of one model's result.
   EnsembleMean mean(const NumberOf<Realisation>& number) const;
   EnsembleMean mean(const NumberOf<ModelResult>& number, ContactModel model) const;
-  /// Mean over realisations; a single surface has no interval.
+  /// Mean decay length over realisations, m and divided by h_rms; a single surface has no interval.
   EnsembleMean decay_length(ContactModel model = ContactModel::bem) const;
   EnsembleMean decay_length_over_rms_height(ContactModel model = ContactModel::bem) const;
-  /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for
-  /// an unknown name.
+  /// mean() of a column of ModelResult, given by its name, such as "area_slope" or "law_bend".
+  /// Throws InvalidInput for an unknown name.
   EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
 
-  /// Compares the exponential law with the mean curve of a model; empty where no local l is known.
+  /// Compares the exponential law with the mean curve of a model; empty if no local decay length is
+  /// known.
   std::optional<LawDescription> law_description(ContactModel model = ContactModel::bem) const;
 
   StudyTheories theories() const;
 
-  /// Means over realisations at each pressure; contacts that did not converge are left out.
+  /// Means over realisations of a number at each pressure (the second argument of `number` is the
+  /// index of the pressure); contacts that did not converge are left out.
   std::vector<EnsembleMean> at_pressures(
       const std::function<double(const Realisation&, std::size_t)>& number) const;
   std::vector<EnsembleMean> curve(const NumberOf<ForceSample>& number,
                                   ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> damping(const NumberOf<DampingPoint>& number,
                                     ContactModel model = ContactModel::bem) const;
-  /// A quantity of DampingPoint as answers and files state it: stated() where it has a numerical
-  /// error, deviation(), and otherwise the mean over realisations. Throws InvalidInput for an
-  /// unknown name.
+  /// A quantity of DampingPoint, given by its name, as solutions and files contain it: stated() if
+  /// the quantity has a numerical error, deviation() for "deviation", and otherwise the mean over
+  /// realisations. Throws InvalidInput for an unknown name.
   std::vector<EnsembleMean> damping(std::string_view quantity,
                                     ContactModel model = ContactModel::bem) const;
-  /// The mean of damping_constant_closed_form over that of damping_constant_without_slip, minus 1;
-  /// it compares the two columns and is not the mean of the ratios of single surfaces. To first
-  /// order in the scatter, its interval is that of the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the
-  /// surfaces, with the ratio r of the means.
+  /// The mean of damping_constant_closed_form (γ16) divided by the mean of
+  /// damping_constant_without_slip (γ), minus 1. It is a ratio of means, not the mean of the ratios
+  /// of single surfaces. To first order in the scatter, its interval is that of the mean of γ16/⟨γ⟩
+  /// − r(γ/⟨γ⟩ − 1) over the surfaces, with r = ⟨γ16⟩/⟨γ⟩.
   std::vector<EnsembleMean> deviation(ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
   /// Means of flow numbers over the surfaces whose gap percolates. The mean of
-  /// FlowFactors::percolates_x is the fraction of surfaces that do.
+  /// FlowFactors::percolates_x is the fraction of surfaces whose gap percolates along x.
   std::vector<EnsembleMean> flow(const NumberOf<FlowFactors>& number) const;
-  /// Means at each mean gap of the adhesive cycle, and for the whole cycle; contacts that did not
-  /// converge are left out.
+  /// Means over realisations of a number at each mean gap of the adhesive cycle, and of a number of
+  /// the whole cycle; contacts that did not converge are left out.
   std::vector<EnsembleMean> adhesion(const NumberOf<AdhesionSample>& number) const;
   EnsembleMean adhesion_cycle(const NumberOf<AdhesiveCycleNumbers>& number) const;
-  /// Conductances from K of the boundary elements, as configured; empty otherwise. Each is K times
-  /// a constant, and so is its interval.
+  /// Mean conductance at each pressure from K of the boundary elements; empty if the configuration
+  /// does not request it. A conductance is K times a constant, so its interval is that of K times
+  /// the same constant.
   std::vector<EnsembleMean> conductance(double Conductances::*kind) const;
-  /// A quantity of a model over that of the boundary elements on the same surface.
+  /// Mean ratio of a number of a model to the same number of the boundary elements on the same
+  /// surface, at each pressure.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
-  /// A loss of a model over that of the boundary elements on the same surface without slip.
-  std::vector<EnsembleMean> damping_over_bem(const NumberOf<DampingPoint>& number,
-                                             ContactModel model) const;
-  /// The ratios of a model that files and answers contain, by the names of their quantities.
+  /// Mean ratio of a loss of a model to a loss of the boundary elements on the same surface, by
+  /// default the loss without slip, at each pressure.
+  std::vector<EnsembleMean> damping_over_bem(
+      const NumberOf<DampingPoint>& number, ContactModel model,
+      const NumberOf<DampingPoint>& reference = &DampingPoint::work_per_cycle_without_slip) const;
+  /// All ratios of a model to the boundary elements that files and solutions contain, each with the
+  /// name of its quantity.
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
       ContactModel model) const;
 
-  /// work_per_cycle or damping_constant, with or without slip, at each pressure with its numerical
-  /// error: the mean relative error of the surfaces that have one, with their noise over √n, times
-  /// the mean. The mean is NaN if it is no larger than its error. Throws InvalidInput for an
-  /// unknown name.
+  /// Mean of work_per_cycle or damping_constant, with or without slip (`quantity` is the name), at
+  /// each pressure with its numerical error. The error is the mean times the mean relative error of
+  /// those surfaces that have an error, in which the noise is divided by √n for n surfaces. The
+  /// mean is NaN if it is no larger than its error. Throws InvalidInput for an unknown name.
   std::vector<StatedMean> stated(std::string_view quantity,
                                  ContactModel model = ContactModel::bem) const;
 
   /// Range of deviation() over the pressures.
   DeviationRange deviation_range(ContactModel model = ContactModel::bem) const;
-  /// Numbers of surfaces of convergence(): the milestones, and all.
+  /// Numbers of surfaces at which convergence() is evaluated: those for which is_milestone() is
+  /// true, and the number of all surfaces.
   std::vector<std::size_t> convergence_counts() const;
-  /// Mean l/h_rms of the boundary elements over the first convergence_counts() realisations: the
-  /// convergence of the mean.
+  /// Mean l/h_rms of the boundary elements over the first M realisations, for each M of
+  /// convergence_counts(); it shows how the mean converges.
   std::vector<EnsembleMean> convergence() const;
-  /// For a surface twin, the fraction of the variance of ln W over the surfaces that the scans
-  /// leave open: 1 minus the variance within pairs of surfaces that share a spectrum over that of
-  /// all, averaged over the pressures. The rest is variation from place to place, which larger
-  /// surfaces reduce. NaN for other ensembles and below three pairs.
+  /// For a surface twin, the fraction of the variance of ln W over the surfaces that comes from the
+  /// uncertainty of the spectrum, which the scans leave open. It is 1 minus the ratio of the
+  /// variance within pairs of surfaces that share a spectrum to the variance of all surfaces,
+  /// averaged over the pressures. The rest of the variance is variation from place to place, which
+  /// larger surfaces reduce. NaN for other ensembles and for fewer than three pairs.
   double scan_share() const;
-  /// One line on how the intervals were computed.
+  /// One line of text that says how the 95 % intervals were computed.
   std::string interval_method() const;
 };
 
@@ -209,63 +220,65 @@ constexpr void describe(auto&& visit, std::type_identity<StudyResult>) {
   visit(&S::pressures, Kept{"pressures", "nominal pressures", Dimension::pressure});
   visit(&S::realisations, Kept{"realisations", "what was computed for each surface"});
   visit(&S::warnings, Kept{"warnings", "sentences for the user"});
-  visit(&S::ensemble_warnings, Kept{"ensemble_warnings", "why the result may be off for other reasons than chance"});
+  visit(&S::ensemble_warnings,
+        Kept{"ensemble_warnings", "why the result may be off for other reasons than chance"});
   visit(&S::interrupted, Kept{"interrupted", "whether surfaces that were asked for are missing"});
   visit(&S::precision_reached,
         Kept{"precision_reached", "whether fewer surfaces than seeds were enough"});
 }
 
-/// Report on one finished surface, on the thread that called the run.
+/// Report on one finished surface; the callback runs in the thread that called the run.
 struct RealisationReport {
-  std::size_t point = 0, points = 1;     ///< of the parameter grid
-  std::size_t finished = 0, wanted = 0;  ///< surfaces, over all points
+  std::size_t point = 0, points = 1;     ///< index, and number of points of the parameter grid
+  std::size_t finished = 0, wanted = 0;  ///< number of surfaces, over all points
   std::uint64_t seed = 0;
-  double seconds = 0;     ///< computing time; 0 if it was on the disk already
-  bool restored = false;  ///< read, not computed
+  double seconds = 0;     ///< computing time, s; 0 if restored
+  bool restored = false;  ///< true: read from `parts`, not computed
 };
 
 /// How a study runs: callbacks, storage of its parts, and the processes that share it.
 struct StudyRun {
-  Progress on_progress = {};  ///< of the whole run
+  Progress on_progress = {};  ///< progress of the whole run
   std::function<void(const RealisationReport&)> on_realisation = {};
-  /// Called before the work, in every process, with each of StudyResult::warnings that is known by
-  /// then.
+  /// Called in every process, before the computation starts, with each warning of
+  /// StudyResult::warnings that is known by then.
   std::function<void(const std::string&)> on_warning = {};
-  /// Realisations in it are not computed again; a new one is on the disk before its thread begins
-  /// another.
+  /// Folder of finished realisations, which are not computed again. A new realisation is on the
+  /// disk before its thread begins the next one.
   StudyParts* parts = nullptr;
-  /// If given, nothing is computed: it receives the indices, counted from 0 over all points and
-  /// seeds in their order, of the realisations that `parts` lacks. If there are none, the results
-  /// are those of a whole run.
+  /// If given, nothing is computed, and the vector receives the indices of the realisations that
+  /// `parts` lacks (counted from 0 over all points and, within a point, all seeds). If none is
+  /// missing, the results are those of a whole run.
   std::vector<std::size_t>* missing = nullptr;
-  /// The processes of the run: each group spreads one surface after the other over its processes.
-  /// All make the call, each with its own on_progress, and get the same results. Only the first
-  /// process uses on_realisation and `parts`.
+  /// The processes of the run. Each group distributes one surface after the other over its
+  /// processes. All processes make the call, each with its own on_progress, and get the same
+  /// results. Only the first process uses on_realisation and `parts`.
   Groups groups = {};
 };
 
 /// Progress of one process with its shard of a study.
 struct ShardOutcome {
-  std::size_t wanted = 0;     ///< surfaces of this shard
+  std::size_t wanted = 0;     ///< number of surfaces of this shard
   std::size_t present = 0;    ///< finished earlier or by other processes
-  std::size_t computed = 0;   ///< in this run
+  std::size_t computed = 0;   ///< computed in this run
   std::size_t elsewhere = 0;  ///< being computed by other processes, of any shard
-  int damaged = 0;            ///< files removed, their surfaces computed again
+  int damaged = 0;            ///< damaged files, removed and computed again
   bool interrupted = false;
 };
 
-/// Computes the surfaces of a shard that the folder lacks, and stores them there. Any number of
-/// processes may do so at once, on any hosts that see the folder.
+/// Computes the surfaces of a shard that are missing in the folder run.parts, and stores them
+/// there. Any number of processes may do so at once, on any hosts that see the folder.
 ///
 ///     auto parts = StudyParts::of_shard("study.parts", shard);
 ///     ShardOutcome outcome = run_shard(study, shard, {.parts = parts.get()});
 ///
-/// run_ensembles() with `missing` then assembles the result, with the bits of one process. A
-/// precision does not end a numbered shard early, because other shards have the surfaces in
-/// between; Shard::any() checks it before each surface. Shard::any() claims a surface by a file
-/// that it locks until its process ends.
-/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs
-///         to it; NotConverged and IoError as run_ensembles()
+/// Afterwards run_ensembles() with StudyRun::missing assembles the result, with the same bits as in
+/// one process. A target precision does not end a numbered shard early, because other shards have
+/// some of the surfaces in between; a shard with any() checks the precision before each surface. A
+/// shard with any() claims a surface by a file that it locks until its process ends.
+/// throws  InvalidInput for a configuration that cannot be run, and if the folder has realisations
+///         but none belongs to the configuration; NotConverged and IoError wherever run_ensembles()
+///         does
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
                        const StudyRun& run);
 
@@ -275,21 +288,22 @@ ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& sha
 ///     StudyRun run{.on_progress = progress};
 ///     std::vector<StudyResult> results = run_ensembles(study, run);
 ///
-/// With a precision, a point ends at the first M >= min_realisations surfaces (in the order of the
-/// seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements
-/// are narrower than ±precision of their means. The result has the same bits for every number of
-/// threads, processes and groups. If the run is stopped, points not yet begun are left out. A
-/// measured surface is treated as periodic after its plane is removed; the result carries a warning
-/// with the size of the resulting step at the seam.
+/// With a target precision, a point of the parameter grid ends after the first M surfaces (M >=
+/// min_realisations, is_milestone(M)) for which the 95 % intervals of l/h_rms and of the area slope
+/// κ of the boundary elements are narrower than ±precision of their means. The result has the same
+/// bits for every number of threads, processes and groups. If the run is stopped, points not yet
+/// begun are left out. A measured surface is treated as periodic after its plane is removed; the
+/// result carries a warning with the size of the resulting step at the seam.
 /// throws  InvalidInput for a configuration that cannot be run, such as one with a hardness, a
-///         relative error or interacting summits over several processes of a group, and for parts
-///         none of which belongs to it; NotConverged where fewer than four contacts of a sweep
-///         converged; IoError where a part cannot be written
+///         relative error or interacting summits over several processes of a group, and if
+///         run.parts has realisations but none belongs to the configuration; NotConverged if fewer
+///         than four contacts of a sweep converged; IoError if a realisation cannot be written
 /// cost    the BEM sweep for each surface; interacting summits cost about as much again
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});
 
-/// Runs a configuration with one point by run_ensembles(). Throws InvalidInput where it has more.
+/// Runs a configuration with a single point by run_ensembles(). Throws InvalidInput if it has
+/// several points.
 StudyResult run_study(const StudyConfiguration& configuration, const StudyRun& run = {});
 
 }  // namespace salebra

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/assumptions.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
 #include <vector>
 
 namespace salebra {
 
-/// Result of a study for the described motion at each of its pressures, and its validity. The
-/// assumptions are those of the mean curve of the boundary elements: gap, area and stiffnesses
-/// averaged over the surfaces at each pressure.
+/// Result of a study for its motion at each of its pressures, and the validity of the result. The
+/// assumptions are checked for the mean curve of the boundary elements, in which gap, area and
+/// stiffnesses are averaged over the surfaces at each pressure.
 struct StudySolution {
-  std::vector<double> pressures = {};  ///< nominal, Pa
-  /// StudyResult::stated() of the boundary elements: the loss of the motion as described, and the
-  /// damping constant without slip. NaN where `unknown` has a reason.
+  std::vector<double> pressures = {};  ///< nominal pressures, Pa
+  /// StudyResult::stated() of the boundary elements: damping constant and loss of the motion as
+  /// described, and the damping constant without slip. The loss is NaN if the text `unknown` gives
+  /// a reason.
   std::vector<StatedMean> damping_constant = {};               ///< γ = P/⟨ẋ²⟩, N s/m
-  std::vector<StatedMean> work_per_cycle = {};                 ///< J
+  std::vector<StatedMean> work_per_cycle = {};                 ///< W, J
   std::vector<StatedMean> damping_constant_without_slip = {};  ///< N s/m
-  /// Fractions of the work by springs that open and close, and by slip of those that stay closed;
-  /// NaN where slip is not computed.
+  /// Fractions of work_per_cycle lost by springs that open and close, and by slip of springs that
+  /// stay closed; NaN if slip is not computed.
   std::vector<double> relaxation_share = {}, slip_share = {};
-  /// Conductance of the boundary elements per nominal area, W/(m² K) and S/m²; empty where the
-  /// configuration does not want it.
+  /// Conductance of the boundary elements per nominal area, W/(m² K) and S/m²; empty if the
+  /// configuration does not request it.
   std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
-  bool slip_followed = false;  ///< the coefficient of friction is known
-  std::string unknown = {};    ///< why_loss_unknown(); empty: the loss is known
+  bool slip_followed = false;  ///< true: the coefficient of friction is known
+  std::string unknown = {};    ///< text of why_loss_unknown(); empty: the loss is known
   std::vector<Assumptions> assumptions = {};
   std::vector<AssumptionVerdict> verdicts = {};  ///< worst first
   Validity validity = Validity::not_checked;
@@ -54,22 +55,22 @@ constexpr void describe(auto&& visit, std::type_identity<StudySolution>) {
   visit(&S::validity, Kept{"validity", "one word for all verdicts"});
 }
 
-/// Evaluates a study for its motion.
+/// Evaluates the result of a study for its motion.
 ///
 ///     StudySolution solution = solution_of(run_study(study));
 ///
-/// The contact parameters are those of the configuration and, from the surfaces, their side, mean
-/// contact pressure and rms slope. The assumptions are unknown where no contact converged, and
-/// everywhere if fewer than four pressures make no curve.
-/// Throws InvalidInput for a hardness below the largest pressure.
+/// The contact parameters come from the configuration and, for the side of the surface, the mean
+/// contact pressure and the rms slope, from the surfaces. The assumptions are unknown at pressures
+/// at which no contact converged, and at all pressures if there are fewer than four, too few for a
+/// curve. Throws InvalidInput for a hardness below the largest pressure.
 /// Cost: 10 ms for each pressure.
 StudySolution solution_of(const StudyResult& result);
 
-/// Returns the number of surfaces needed at each pressure for a 95 % interval of ±precision of the
-/// mean damping constant, estimated from the n surfaces at hand: n (half its
-/// width/(precision·mean))², at least 2. The variance of few surfaces is itself known to
-/// √(2/(n − 1)) at best. NaN without an interval. Throws InvalidInput for a precision that is
-/// not > 0.
+/// Returns the number of surfaces needed at each pressure for a 95 % interval of the mean damping
+/// constant of ±precision (relative). It is estimated from the n surfaces of the study: n·(half the
+/// width of their interval/(precision·mean))², at least 2. The relative error of the estimate is at
+/// least √(2/(n − 1)), that of a variance of n surfaces. NaN without an interval. Throws
+/// InvalidInput for a precision that is not > 0.
 std::vector<double> surfaces_for(const StudyResult& result, double precision);
 
 }  // namespace salebra

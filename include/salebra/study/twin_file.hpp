@@ -17,27 +17,29 @@ namespace salebra {
 struct TwinMeasurement {
   MeasuredSurface surface;
   ScanInstrument instrument;
-  double weight = 1;  ///< > 0; number of scans of its kind that it counts as
+  double weight = 1;  ///< > 0; number of scans that this one represents
 };
 
 /// Reads a TOML file of tables [[measurement]], with the keys of a measured surface in a study file
 /// and
 ///     instrument          ideal, optical, stylus or afm
-///     resolution          for optical ones, full width at half maximum
+///     resolution          of an optical instrument, full width at half maximum
 ///     tip_radius          for stylus and afm
 ///     noise, height_calibration, scan_calibration, line_drift, weight
-///     name                of the instrument, where two of one kind differ in calibration
-/// throws  InvalidInput "FILE:LINE: measurement.key: …" as read_study_configuration(), and for no
-///         measurement
+///     name                of the instrument, needed if two instruments of one kind have their own
+///                         calibrations
+/// throws  InvalidInput, whose message starts with "FILE:LINE: measurement.key", as
+///         read_study_configuration() does, and for a file without a measurement
 std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path& file);
 
-/// Computes the spectra of the scans, reading one after the other so that only one is in memory.
-/// Throws as read_surface() and scan_spectrum(); Interrupted.
+/// Computes the spectra of the scans, reading one scan after the other so that only one is in
+/// memory. Throws wherever read_surface() and scan_spectrum() do; Interrupted.
 std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measurements,
                                      const Progress& progress = {},
                                      std::vector<std::string>* warnings = nullptr);
 
-/// Fits a surface twin: fit_twin() of spectra_of(). Throws as they do.
+/// Fits a surface twin by fit_twin() to the spectra of spectra_of(). Throws wherever these
+/// functions do.
 ///
 ///     SurfaceTwin twin = twin_of(read_twin_measurements("scans.toml"));
 SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements,
@@ -49,12 +51,13 @@ SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements,
 void write_twin(const std::filesystem::path& file, const SurfaceTwin& twin,
                 const Provenance& provenance, const WriteOptions& options = {});
 
-/// Reads the draws of such a file. Throws InvalidInput naming the file if it is of another kind.
+/// Reads the draws of a surface twin from a file of write_twin(). Throws InvalidInput, whose
+/// message names the file, for another kind of file.
 std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& file);
 
-/// Returns the spectra of a twin for GeneratedSurfaces::tables on a grid: first the draw of median
-/// slope, then every draw, from half the smallest wave number of the grid to its Nyquist wave
-/// number.
+/// Returns the spectra of a twin for GeneratedSurfaces::tables on a grid: first the draw whose rms
+/// slope is the median, then all draws, from half the smallest wave number of the grid to its
+/// Nyquist wave number.
 std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const Grid2D& grid);
 
 }  // namespace salebra

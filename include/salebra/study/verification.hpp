@@ -13,7 +13,7 @@ struct Check {
   std::string name;
   double value = 0;
   double expected = 0;
-  double tolerance = 0;  ///< relative to expected, absolute where that is 0
+  double tolerance = 0;  ///< relative to expected; absolute if expected is 0
   bool passed() const;
 };
 
@@ -29,8 +29,9 @@ constexpr void describe(auto&& visit, std::type_identity<Check>) {
 }
 
 /// Runs the solvers on problems with known solutions: Hertz's sphere, Westergaard's full contact,
-/// Greenwood–Williamson with exponential heights, the integrals J(k), the theorem against the
-/// closed forms, the moments of a generated surface.
+/// Greenwood–Williamson with exponential heights, the integrals J(k) of
+/// closed_form::drag_integral_scaled(), relaxation_damping() against the closed forms, and the
+/// moments of a generated surface.
 ///
 ///     bool works = std::ranges::all_of(verify_installation(), &Check::passed);
 ///

@@ -7,8 +7,8 @@
 namespace salebra {
 
 /// Areal parameters with the names and definitions of ISO 25178-2, computed from the surface as
-/// given: no S- or L-filter is applied, and only `detrended` removes form. Means are taken over the
-/// defined points, and heights are measured from their mean.
+/// given: no S- or L-filter is applied; use detrended() to remove form. Means are taken over the
+/// defined points, and heights h are measured from the mean height.
 struct ArealParameters {
   double Sa = 0;   ///< ⟨|h|⟩, m
   double Sq = 0;   ///< √⟨h²⟩, m
@@ -18,22 +18,24 @@ struct ArealParameters {
   double Sv = 0;   ///< deepest pit, > 0, m
   double Sz = 0;   ///< Sp + Sv, m
   /// Autocorrelation length, m: the shortest distance, over 720 directions, at which the
-  /// autocorrelation (CorrelationMap, bilinear between lags) has fallen to 0.2 of its value at 0.
-  /// NaN if it does not fall that far within half the surface.
+  /// autocorrelation (CorrelationMap, interpolated bilinearly) has fallen to 0.2 of its value at
+  /// distance 0. NaN if it does not fall that far within half the surface.
   double Sal = 0;
-  double Str = 0;  ///< Sal over the longest such distance, 0 … 1; NaN if that is unknown
+  double Str = 0;  ///< Sal over the longest distance to 0.2, from 0 to 1; NaN if unknown
   /// Texture direction from the x axis, in [0, π) rad: where the angular spectrum ∫ q C dq is
-  /// greatest (720 rays, bilinear between modes). The lay is perpendicular to it. NaN if points are
-  /// undefined or all heights are equal.
+  /// greatest (along 720 rays, C interpolated bilinearly). The lay is perpendicular to this
+  /// direction. NaN if points are undefined or all heights are equal.
   double Std = 0;
-  /// Root mean square gradient, and developed area over projected area minus 1. Both are means over
-  /// the triangles into which either diagonal divides each cell of four points.
+  /// Sdq: root mean square gradient. Sdr: developed area over projected area, minus 1. Sdq and Sdr
+  /// are means over triangles of neighbouring points: each cell of four points is divided along
+  /// each of its two diagonals.
   double Sdq = 0;
   double Sdr = 0;
-  double Sk = 0, Spk = 0, Svk = 0;  ///< core_parameters of the bearing curve, m
-  double Smr1 = 0, Smr2 = 0;        ///< the same, 0 … 1
-  /// Peaks per area, 1/m², and their mean curvature, 1/m (NaN without peaks). They count the
-  /// significant_peaks with a prominence of at least 5 % of Sz, the default of ISO 25178-2.
+  double Sk = 0, Spk = 0, Svk = 0;  ///< by core_parameters() of the bearing curve, m
+  double Smr1 = 0, Smr2 = 0;        ///< by core_parameters(), from 0 to 1
+  /// Spd: peaks per area, 1/m². Spc: mean curvature of these peaks, 1/m (NaN without peaks). A peak
+  /// counts if significant_peaks() finds it with a prominence of at least 5 % of Sz, the default of
+  /// ISO 25178-2.
   double Spd = 0;
   double Spc = 0;
 };
@@ -68,18 +70,20 @@ class BearingCurve;
 struct CorrelationMap;
 struct PowerSpectrum;
 
-/// Results that the caller already has for this surface; missing ones are computed.
+/// Results that the caller already has for the surface; areal_parameters() computes those that are
+/// nullptr.
 struct ArealParts {
   const CorrelationMap* correlation = nullptr;
-  const PowerSpectrum* spectrum = nullptr;  ///< with the default window
+  const PowerSpectrum* spectrum = nullptr;  ///< power spectrum with the default window
   const BearingCurve* bearing = nullptr;
 };
 
 /// Computes the areal parameters of a surface:
 ///     const ArealParameters areal = areal_parameters(detrended(surface, Detrend::plane));
-/// Throws InvalidInput as height_statistics does, and for fewer than 3 × 3 points. Collective: for
-/// a surface distributed over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, because
-/// they need the whole surface. Cost: the correlation map, a power spectrum, a sort and the peaks.
+/// Throws InvalidInput wherever height_statistics does, and for fewer than 3 × 3 points.
+/// Collective; for a surface distributed over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are
+/// NaN, because they need the whole surface. Cost: a correlation map, a power spectrum, a sort of
+/// the heights and a search for peaks.
 ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts = {});
 
 }  // namespace salebra

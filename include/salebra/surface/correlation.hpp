@@ -14,15 +14,16 @@ namespace salebra {
 ///     autocorrelation  A(r) = ⟨(h(x) − ⟨h⟩)(h(x+r) − ⟨h⟩)⟩,  ⟨h⟩ the mean of all defined points
 ///     structure        S(r) = ⟨(h(x+r) − h(x))²⟩, also called height-height correlation function
 /// On a complete periodic surface S = 2(A(0) − A(r)). Otherwise prefer S, which does not depend on
-/// the mean. "autocorrelation" in SurfaceTopography is S/2. Fields have the shape (2·(nx/2)+1,
-/// ny/2+1): row nx/2 + i and column j >= 0 hold r = (i·dx, j·dy); A and S are even in r.
+/// the mean. The function called autocorrelation in SurfaceTopography is S/2. Fields have the shape
+/// (2·(nx/2)+1, ny/2+1): row nx/2 + i and column j >= 0 belong to r = (i·dx, j·dy). Negative y are
+/// not stored, since A and S are even in r.
 struct CorrelationMap {
   Grid2D grid;            ///< grid of the surface
-  Field autocorrelation;  ///< m²; NaN if there is no pair
-  Field structure;        ///< m²; NaN if there is no pair
+  Field autocorrelation;  ///< A, m²; NaN if there is no pair
+  Field structure;        ///< S, m²; NaN if there is no pair
   Field pairs;            ///< number of pairs
 
-  Index origin() const { return grid.nx / 2; }  ///< row of i = 0
+  Index origin() const { return grid.nx / 2; }  ///< row with lag 0 along x
   double lag_x(Index row) const { return static_cast<double>(row - origin()) * grid.dx(); }
   double lag_y(Index column) const { return static_cast<double>(column) * grid.dy(); }
 };
@@ -39,16 +40,17 @@ constexpr void describe(auto&& visit, std::type_identity<CorrelationMap>) {
 
 /// Computes the correlation functions; undefined points are ignored:
 ///     const Correlation mean = radial_correlation(correlation_map(surface));
-/// Throws InvalidInput as height_statistics does. Cost: two real FFTs of the grid for a complete
-/// periodic surface; otherwise six of 1.5 times as many points along each axis that is not
-/// periodic.
+/// Throws InvalidInput wherever height_statistics does. Cost: two real FFTs of the grid for a
+/// complete periodic surface; otherwise six real FFTs, with 1.5 times as many points along each
+/// axis if the surface is not periodic.
 CorrelationMap correlation_map(const Surface& surface);
 
-/// A and S over distance. Every entry has at least one pair, and the first entry is r = 0.
+/// Autocorrelation A and structure function S over distance. Every entry has at least one pair of
+/// points, and the first entry is distance 0.
 struct Correlation {
   std::vector<double> distance;         ///< m, increasing
-  std::vector<double> autocorrelation;  ///< m²
-  std::vector<double> structure;        ///< m²
+  std::vector<double> autocorrelation;  ///< A, m²
+  std::vector<double> structure;        ///< S, m²
   std::vector<double> pairs;            ///< number of pairs
 };
 
@@ -62,11 +64,13 @@ constexpr void describe(auto&& visit, std::type_identity<Correlation>) {
   visit(&S::pairs, Quantity{"pairs", dimensionless, "pairs in the mean"});
 }
 
-/// Returns A and S along one axis: the mean over all profiles, at multiples of the step.
+/// Returns A and S along one axis, as means over all profiles, at all multiples of the point
+/// spacing.
 Correlation profile_correlation(const CorrelationMap& map, Axis axis);
 
-/// Returns the mean over all directions, weighted by pairs, up to half the shorter side. The limits
-/// of the rings have the ratio 2^(1/bins_per_octave); empty rings are omitted.
+/// Returns A and S averaged over all directions, up to half the shorter side of the surface.
+/// Distances are divided into rings whose limits have the ratio 2^(1/bins_per_octave); within a
+/// ring, lags are weighted by their number of pairs. Empty rings are omitted.
 Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave = 4);
 
 }  // namespace salebra

@@ -8,7 +8,7 @@ namespace salebra {
 
 /// A rectangular part of a surface; point (ix, iy) of the surface is at x = ix·dx, y = iy·dy.
 struct Rectangle {
-  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< from the corner of the surface
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< m, from point (0, 0)
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Rectangle>) {
@@ -21,8 +21,8 @@ constexpr void describe(auto&& visit, std::type_identity<Rectangle>) {
 /// than half a cell or contains fewer than two points along an axis.
 Surface cropped(const Surface& surface, const Rectangle& part);
 
-/// Finds the rectangle of the largest area without undefined points; empty if no point is defined.
-/// Cost: one pass.
+/// Finds the largest rectangle (by area) that contains no undefined point; empty if no point is
+/// defined. Cost: one pass over the heights.
 std::optional<Rectangle> max_defined_part(const Surface& surface);
 
 }  // namespace salebra

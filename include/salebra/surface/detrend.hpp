@@ -13,16 +13,17 @@ enum class Detrend {
   plane,      ///< the least-squares plane a + b·x + c·y through the defined heights
   quadratic,  ///< the least-squares paraboloid, with x², xy and y²: the bow of a scanner or of a
               ///< lens
-  // The next two methods flatten a scan, whose fast axis is x, line by line. Both remove jumps and
-  // drift between lines, and with them roughness longer than a line: statistics along y change,
-  // those along x do not. The first and last line do not match: a periodic continuation has a seam
-  // there, as for any scan.
-  /// Subtracts the least-squares straight line, offset and slope, from each line. A feature that
-  /// covers part of a line shifts the rest of it.
+  // The methods `lines` and `median_differences` flatten a scan, whose fast axis is x, line by
+  // line. They remove jumps and drift between lines, and with them all roughness longer than a
+  // line: statistics along y change, statistics along x do not. The first and the last line do not
+  // match: a periodic continuation has a seam between them, as for any scan.
+  /// Subtracts from each scan line its least-squares straight line (offset and slope). A feature
+  /// that covers part of a scan line therefore shifts the rest of that line.
   lines,
-  /// Subtracts an offset from each line, such that the median of its differences from the previous
-  /// line is zero, and then the plane. A feature shifts nothing unless its edge along y covers half
-  /// of a line. Each point is compared with the last one defined before it at the same x.
+  /// Subtracts from each scan line an offset such that the median of its differences from the
+  /// previous line is zero, and then the least-squares plane. A feature does not shift a line
+  /// unless one of its edges covers half of the line. If the previous point at the same x is
+  /// undefined, the last defined point before it is used.
   median_differences
 };
 
@@ -43,10 +44,11 @@ Detrend default_detrend(const Surface& surface);
 
 /// Subtracts the trend:
 ///     const Surface level = detrended(surface, Detrend::plane);
-/// Undefined points stay undefined and do not enter the fit. If they, or a grid of one row, leave
-/// the fit undetermined, the smallest trend that fits is subtracted. A surface distributed over
-/// processes cannot be detrended line by line. Throws InvalidInput if the heights do not have the
-/// shape of the grid or no height is defined. Cost: two passes; four with median_differences.
+/// Undefined points stay undefined and do not enter the fit. If the fit is not unique, because too
+/// many points are undefined or the grid has one row, the solution with the smallest coefficients
+/// is subtracted. A surface distributed over processes cannot be detrended line by line. Throws
+/// InvalidInput if the heights do not have the shape of the grid or no height is defined. Cost: two
+/// passes over the heights; four with median_differences.
 Surface detrended(Surface surface, Detrend method);
 
 }  // namespace salebra

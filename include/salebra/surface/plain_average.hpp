@@ -7,8 +7,8 @@
 
 namespace salebra {
 
-/// Power spectrum of the profiles of one scan, or its mean over several scans, in ten bins per
-/// decade.
+/// Power spectral density C₁ of the profiles of one scan, or its mean over several scans, in ten
+/// bins per decade of the wave number q.
 struct PlainSpectrum {
   std::vector<Index> bin;          ///< indices of the bins that contain a wave, counted from q =
                                    ///< 1/m
@@ -26,19 +26,20 @@ constexpr void describe(auto&& visit, std::type_identity<PlainSpectrum>) {
   visit(&S::scans, Kept{"scans", "scans with waves in the bin"});
 }
 
-/// Computes the spectrum C₁ = |dx Σ w h e^{−iqx}|²/(2πl) of the profiles along x, averaged over all
-/// profiles and over bins:
+/// Computes the power spectral density C₁ = |dx Σ w h e^{−iqx}|²/(2πl) of the profiles along x, of
+/// length l and with the window w, averaged over all profiles and within bins of q:
 ///     const PlainSpectrum spectrum = plain_spectrum(surface.heights, surface.grid);
-/// Here q = 2πk/l, k = 1 … nx/2 − 1, and the window is w = √(8/3)·½(1 − cos 2πi/nx). Neither mean
-/// nor plane is subtracted. The bins divide the range from the longest to the shortest wave,
-/// widened by 0.01 decades at either end, as in SurfaceTopography 1.x, whose C is 2πC₁. heights has
-/// the shape (nx, ny), m; a line has ny = 1. Throws InvalidInput unless all heights are defined and
-/// nx >= 4. Cost: one FFT.
+/// Here q = 2πk/l with k from 1 to nx/2 − 1, and the window at point i is w = √(8/3)·½(1 − cos
+/// 2πi/nx). Neither the mean nor a plane is subtracted. The bins divide the range from the longest
+/// to the shortest wave, widened by 0.01 decades at each end, as in SurfaceTopography 1.x, whose
+/// spectrum is 2πC₁. heights has the shape (nx, ny), m; a line has ny = 1. Throws InvalidInput
+/// unless all heights are defined and nx >= 4. Cost: one FFT.
 PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid);
 
-/// Averages the spectra of several scans without instruments, weights or variance: each bin gets
-/// the mean of the scans' means and of their wave numbers. It serves as a comparison for fit_twin,
-/// which models the power that a tip or a lens removes. Throws InvalidInput for an empty list.
+/// Averages the spectra of several scans without weights and without a model of the instruments: in
+/// each bin, psd and wavenumber are the means over the scans with waves in that bin. It serves as a
+/// comparison for fit_twin, which models the power that a tip or a lens removes. Throws
+/// InvalidInput for an empty list.
 PlainSpectrum plain_average(const std::vector<PlainSpectrum>& scans);
 
 }  // namespace salebra

@@ -11,12 +11,13 @@
 
 namespace salebra {
 
-/// The kind of instrument of a scan, which determines how the file differs from the true heights.
+/// The kind of instrument that measured a scan. It determines how the heights in the file differ
+/// from the true heights.
 enum class Instrument {
-  ideal,    ///< heights at points, with noise
+  ideal,    ///< true heights at points, with noise
   optical,  ///< heights blurred by a Gaussian point spread function
   stylus,   ///< heights dilated by a tip, line by line
-  afm       ///< like stylus, with a finer tip
+  afm       ///< like stylus, but with a finer tip
 };
 
 template <>
@@ -33,16 +34,16 @@ struct ScanInstrument {
   double resolution = 0;  ///< full width at half maximum of the point spread function, m; only for
                           ///< optical
   double tip_radius = 0;  ///< m; stylus and afm
-  /// rms of white noise, m; NaN estimates it from the spectrum. A given value is a starting point,
-  /// free by a factor of about 1.6 either way.
+  /// rms of white noise, m; NaN: estimated from the spectrum. A given value is only a starting
+  /// point: the fit may change it by a factor of about 1.6 up or down.
   double noise = std::numeric_limits<double>::quiet_NaN();
-  double height_calibration = 0.05;  ///< relative standard error of all heights of the instrument
-  double scan_calibration = 0.02;    ///< the same for one scan, independent of the others
-  /// True if drift shifts lines along x against each other: the modes |k_x| <= 2 are then omitted.
-  /// By default true for stylus and afm.
+  double height_calibration = 0.05;  ///< relative standard error of the instrument's height scale
+  double scan_calibration = 0.02;    ///< likewise for one scan, independent of other scans
+  /// True if drift shifts the lines along x against each other; modes with at most two waves along
+  /// x are then omitted. Empty: true for stylus and afm, false for other instruments.
   std::optional<bool> line_drift = {};
-  /// Scans with the same instrument name share its height calibration; without a name, scans with
-  /// the same kind, resolution and tip do.
+  /// Name of the instrument. Scans with the same name share one height calibration; scans without a
+  /// name share it if kind, resolution and tip are equal.
   std::string name = {};
 
   bool has_tip() const { return kind == Instrument::stylus || kind == Instrument::afm; }
@@ -64,14 +65,15 @@ constexpr void describe(auto&& visit, std::type_identity<ScanInstrument>) {
   visit(&S::name, Kept{"name", "name of the instrument"});
 }
 
-/// Heights in a band of wavelengths: means over blocks of side b minus the mean over 3 blocks in
-/// each direction, which keeps at least half of the amplitude of waves of 2b to 5b.
+/// Statistics of the heights in a band of wavelengths, filtered by taking means over blocks of side
+/// b minus means over three blocks in each direction. The filter keeps at least half of the
+/// amplitude of waves of length 2b to 5b.
 struct HeightBand {
-  double wavelength = 0;  ///< 4b, m
-  double rms_height = 0;  ///< m
-  double skewness = 0;
-  double kurtosis = 0;  ///< 3 for a Gaussian surface
-  Index blocks = 0;
+  double wavelength = 0;  ///< 4b, m, with the side b of a block
+  double rms_height = 0;  ///< of the filtered heights, m
+  double skewness = 0;    ///< 0 for a Gaussian surface
+  double kurtosis = 0;    ///< 3 for a Gaussian surface
+  Index blocks = 0;       ///< number of blocks
 };
 
 constexpr void describe(auto&& visit, std::type_identity<HeightBand>) {
@@ -87,12 +89,12 @@ constexpr void describe(auto&& visit, std::type_identity<HeightBand>) {
 /// Everything that the fit of a surface twin needs from one scan: about a hundred numbers.
 struct ScanSpectrum {
   ScanInstrument instrument;
-  Grid2D grid;  ///< a profile has ny = 1 and ignores ly
-  double weight = 1;
+  Grid2D grid;                     ///< a profile has ny = 1 and ignores ly
+  double weight = 1;               ///< number of scans that this one represents
   std::string name;                ///< name of the scan, for messages
   std::vector<double> wavenumber;  ///< geometric middle of each bin, rad/m
-  std::vector<double> psd;        ///< mean periodogram in the bin: C, m⁴; for a profile C₁, m³
-  std::vector<Index> modes;       ///< number of modes of the full spectrum; 0 if drift removed all
+  std::vector<double> psd;   ///< mean periodogram in each bin: C, m⁴; for a profile C₁, m³
+  std::vector<Index> modes;  ///< number of modes in each bin; 0 if drift removed all
   std::vector<HeightBand> bands;  ///< from fine to coarse
 
   bool profile() const { return grid.ny == 1; }
@@ -115,23 +117,25 @@ constexpr void describe(auto&& visit, std::type_identity<ScanSpectrum>) {
 /// Computes the spectrum of a scan for fit_twin:
 ///     const ScanSpectrum scan = scan_spectrum(surface.heights, surface.grid,
 ///                                             {.kind = Instrument::afm, .tip_radius = 10e-9});
-/// Bins of κ = qL/2π, L = √(lx ly), have the limits 0.5, 1.5, …, 8.5, then grow by the ratio 1.15
-/// up to the lower Nyquist wave number. The least-squares plane is subtracted. Below κ = 12 the
-/// periodogram is the mean over four products of the tapers √2 sin(πkξ), k = 1, 2 (Riedel and
-/// Sidorenko (1995)), which keeps twice as many independent modes as a Hann window; above, it uses
-/// a Hann window, since the tapers leak as q⁻⁴ past a sharp cut-off.
+/// Bins are formed in κ = qL/2π with L = √(lx ly) (waves per side). Their limits are 0.5, 1.5 and
+/// so on in steps of 1 up to 8.5, and then grow by the ratio 1.15 up to the smaller of the two
+/// Nyquist wave numbers. The least-squares plane is subtracted. Below κ = 12 the periodogram is the
+/// mean over four windows, the products along x and y of the tapers √2 sin(πkξ), k = 1, 2, with ξ
+/// from 0 to 1 along a side (Riedel and Sidorenko (1995)); this keeps twice as many independent
+/// modes as a Hann window. Above κ = 12 it uses a Hann window, because the tapers leak power as q⁻⁴
+/// beyond a sharp cut-off of the spectrum.
 /// heights   (nx, ny), m; lines of a scanning instrument are along x
-/// weight    > 0; the number of such scans that this one represents
-/// Throws InvalidInput unless all heights are defined, nx, ny >= 32, the sides are at most 4 to 1,
-/// resolution is > 0 for optical and tip_radius > 0 for stylus and afm, and calibrations are >= 0.
-/// Cost: one FFT and a product of the heights with 52 columns; 20 bytes per point. The bits are the
-/// same for any number of threads.
+/// weight    > 0; number of scans of this kind that this scan represents
+/// Throws InvalidInput unless all heights are defined, nx, ny >= 32, the longer side is at most 4
+/// times the shorter, resolution is > 0 for optical, tip_radius is > 0 for stylus and afm, and
+/// calibrations are >= 0. Cost: one FFT and a product of the heights with 52 columns; 20 bytes per
+/// point. The bits are the same for any number of threads.
 ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
                            const ScanInstrument& instrument, double weight = 1,
                            std::string name = {});
 
-/// Does the same for a line of at least 64 heights, m, over `length` metres, from C₁ = |dx Σ w h
-/// e^{−iqx}|²/(2πl) with h_rms² = ∫C₁ dq over −∞ < q < ∞.
+/// Computes the spectrum for fit_twin of a line of at least 64 heights, m, over the length l =
+/// `length`, m, from C₁ = |dx Σ w h e^{−iqx}|²/(2πl) with h_rms² = ∫C₁ dq over −∞ < q < ∞.
 ScanSpectrum profile_spectrum(const std::vector<double>& heights, double length,
                               const ScanInstrument& instrument, double weight = 1,
                               std::string name = {});

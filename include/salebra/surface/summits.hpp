@@ -11,9 +11,9 @@ namespace salebra {
 struct Summit {
   double x = 0;           ///< m; vertex of the paraboloid, within one cell of the highest point
   double y = 0;           ///< m
-  double height = 0;      ///< m; height of the vertex from the zero of the heights
+  double height = 0;      ///< height of the vertex, m, in the heights of the surface
   double curvature1 = 0;  ///< the larger principal curvature, 1/m; > 0
-  double curvature2 = 0;  ///< the smaller one, 1/m; >= 0
+  double curvature2 = 0;  ///< the smaller principal curvature, 1/m; >= 0
 
   double mean_radius() const { return 2 / (curvature1 + curvature2); }  ///< 1/(mean curvature), m
 };
@@ -32,11 +32,11 @@ constexpr void describe(auto&& visit, std::type_identity<Summit>) {
 /// Summits of a surface; if it is distributed, each process has those of its rows.
 struct SummitList {
   std::vector<Summit> summits;
-  double searched_area =
-      0;  ///< m²: cells of all processes whose eight neighbours exist and are defined
+  /// Area, m², of the cells (of all processes) whose eight neighbours exist and are defined.
+  double searched_area = 0;
   Communicator communicator = {};
-  Index rows = 0;                    ///< rows of the surface; 0 if the summits belong to none
-  std::vector<Index> in_block = {};  ///< summits in each block of rows of this process
+  Index rows = 0;                    ///< rows of the surface; 0 if there is no surface
+  std::vector<Index> in_block = {};  ///< number of summits in each block of rows
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
@@ -52,19 +52,20 @@ constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
 
 /// Finds the summits, the points higher than their eight neighbours:
 ///     const SummitStatistics statistics = summit_statistics(find_summits(surface));
-/// Of equal neighbours the last in row order counts, so that a pair of equal points is one summit.
-/// The paraboloid is the least-squares fit to the 3 × 3 points; if that is not a cap with its
-/// vertex within one cell (structure at the scale of the grid), the point itself and its second
-/// differences along x and y are used. Points without any curvature are not summits. The
-/// neighbourhood wraps if the surface is periodic; otherwise the border is not searched, nor are
-/// neighbours of undefined points. Throws InvalidInput for fewer than 3 × 3 points. Cost: one pass.
-/// Collective.
+/// If neighbouring points are equally high, the last one in row order counts as the highest, so
+/// that a pair of equal points is one summit. The paraboloid is the least-squares fit to the point
+/// and its neighbours (3 × 3 points). If this fit is not a cap with its vertex within one cell,
+/// which happens with structure at the scale of the grid, the point itself and its second
+/// differences along x and y are used instead. Points without any curvature are not summits. On a
+/// periodic surface neighbours are found across the border; otherwise points on the border are not
+/// searched. Neighbours of undefined points are never searched. Throws InvalidInput for fewer than
+/// 3 × 3 points. Cost: one pass over the heights. Collective.
 SummitList find_summits(const Surface& surface);
 
 /// Summit statistics for the Greenwood–Williamson theory.
 struct SummitStatistics {
   double summit_density = 0;  ///< summits per searched area, 1/m²
-  double mean_height = 0;     ///< from the zero of the heights, m; NaN without summits
+  double mean_height = 0;     ///< mean height of the summits, m; NaN without summits
   double rms_height = 0;      ///< standard deviation of the summit heights, m; NaN without summits
   double mean_radius =
       0;  ///< 1/⟨mean curvature⟩, m, which is (3/8)√(π/m4) for a Gaussian isotropic surface

@@ -11,7 +11,9 @@
 
 namespace salebra {
 
-/// Shape of the transition from the plateau of C to its power law.
+/// Form of the isotropic spectrum C(q), in particular of the transition from its plateau to its
+/// power law, with the Hurst exponent H, the roll-off wave number q_r and the cut-off wave number
+/// q_s.
 enum class SpectrumForm {
   corner,  ///< C = A max(q, q_r)^{−2(1+H)}, 0 above q_s
   smooth,  ///< C = A (q_r² + q²)^{−(1+H)}, 0 above q_s
@@ -26,16 +28,17 @@ struct EnumNames<SpectrumForm> {
                                                                 {SpectrumForm::table, "table"}});
 };
 
-/// One spectrum drawn from the posterior given the scans. Wavelengths are λ = 2π/q.
+/// One spectrum drawn from the posterior distribution of spectra that the scans allow. Wavelengths
+/// are λ = 2π/q.
 struct TwinDraw {
   SpectrumForm form = SpectrumForm::corner;
   double hurst = 0;         ///< H; NaN for a table
-  double rolloff = 0;       ///< λ_r, m; NaN for a table
-  double short_cutoff = 0;  ///< λ_s, m
-  double rms_height = 0;    ///< from all waves, m; for a table, from those in the scans
+  double rolloff = 0;       ///< roll-off wavelength λ_r, m; NaN for a table
+  double short_cutoff = 0;  ///< cut-off wavelength λ_s, m
+  double rms_height = 0;    ///< of all waves, m; for a table, of waves in the scans
   double rms_slope = 0;
-  double amplitude = 0;  ///< ln C of the power law at `reference`, without plateau; 0 for a table
-  double reference = 0;  ///< rad/m
+  double amplitude = 0;         ///< ln C of the pure power law at q = `reference`; 0 for a table
+  double reference = 0;         ///< wave number that `amplitude` belongs to, rad/m
   std::vector<double> knots;    ///< knots of a table, rad/m
   std::vector<double> log_psd;  ///< ln C at the knots
 
@@ -58,10 +61,11 @@ constexpr void describe(auto&& visit, std::type_identity<TwinDraw>) {
   visit(&S::log_psd, Kept{"log_psd", "logarithm of the spectral density at the knots"});
 }
 
-/// C at wave numbers in geometric progression that include the corner and the end.
+/// A spectrum C tabulated at wave numbers in geometric progression, which include the roll-off and
+/// the cut-off.
 struct SpectrumTable {
   std::vector<double> wavenumber;  ///< increasing, rad/m
-  std::vector<double> psd;         ///< m⁴
+  std::vector<double> psd;         ///< C, m⁴
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SpectrumTable>) {
@@ -70,12 +74,14 @@ constexpr void describe(auto&& visit, std::type_identity<SpectrumTable>) {
   visit(&S::psd, Kept{"psd", "spectral density", Dimension::length_to_the_fourth});
 }
 
-/// Tabulates the spectrum of a draw from `lowest` to its end, so that linear interpolation of ln C
-/// over ln q is accurate to about 1e-4. Throws InvalidInput unless 0 < lowest < 2π/λ_s.
+/// Tabulates the spectrum of a draw from the wave number `lowest`, rad/m, to its cut-off, so
+/// densely that linear interpolation of ln C over ln q is accurate to about 1e-4. Throws
+/// InvalidInput unless 0 < lowest < 2π/λ_s.
 SpectrumTable tabulated(const TwinDraw& draw, double lowest, int points_per_decade = 60);
 
-/// Estimate of one parameter. If no scan sees it, `seen` is false: a wavelength then has only one
-/// limit, and value and the other limit are NaN.
+/// Estimate of one parameter with its 95 % interval. If no scan shows the parameter, `seen` is
+/// false: a wavelength then has only one limit, low or high, while the opposite limit and the value
+/// are NaN.
 struct TwinParameter : IntervalEstimate {
   bool seen = false;
 };
@@ -85,7 +91,7 @@ constexpr void describe(auto&& visit, std::type_identity<TwinParameter>) {
   visit(&TwinParameter::seen, Kept{"seen", "whether the scans decide on it"});
 }
 
-/// The spectrum with its 95 % band.
+/// The fitted spectrum C with its 95 % band, from `low` to `high`.
 struct TwinSpectrum {
   std::vector<double> wavenumber;      ///< rad/m
   std::vector<double> psd, low, high;  ///< m⁴
@@ -102,13 +108,13 @@ constexpr void describe(auto&& visit, std::type_identity<TwinSpectrum>) {
 
 /// Scans with the same instrument, size and grid, and how the fit used them.
 struct TwinGroup {
-  std::string instrument;
-  Index scans = 0;
-  double shortest = 0;  ///< shortest wavelength used, m
-  double longest = 0;   ///< longest wavelength used, m
-  Index bins = 0;
-  double gain = 1;    ///< fitted factor of the heights
-  double misfit = 0;  ///< χ² over its expectation
+  std::string instrument;  ///< name of the instrument
+  Index scans = 0;         ///< number of scans
+  double shortest = 0;     ///< shortest wavelength used, m
+  double longest = 0;      ///< longest wavelength used, m
+  Index bins = 0;          ///< number of bins of the spectrum used
+  double gain = 1;         ///< fitted factor of the heights
+  double misfit = 0;       ///< χ² over its expectation
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinGroup>) {
@@ -125,9 +131,9 @@ constexpr void describe(auto&& visit, std::type_identity<TwinGroup>) {
 
 struct TwinScan {
   std::string name;
-  double misfit = 0;  ///< χ² of this scan against the fit over its expectation, 1 for a good one
-  double gain = 1;    ///< factor of its heights relative to its group
-  bool left_out = false;
+  double misfit = 0;      ///< χ² of the scan against the fit over its expectation; 1: good
+  double gain = 1;        ///< factor of its heights relative to its group
+  bool left_out = false;  ///< true if the fit did not use this scan
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinScan>) {
@@ -138,13 +144,14 @@ constexpr void describe(auto&& visit, std::type_identity<TwinScan>) {
   visit(&S::left_out, Kept{"left_out", "whether it was left out"});
 }
 
-/// Fit of the more likely self-affine law without one instrument; intervals are from the curvature
-/// of the likelihood.
+/// Fit to all scans except those of one instrument, with the more likely of the two self-affine
+/// forms; intervals come from the curvature of the likelihood.
 struct TwinWithout {
-  std::string instrument;
+  std::string instrument;  ///< the instrument that was left out
   TwinParameter hurst, rolloff, short_cutoff, rms_height, rms_slope;
-  double misfit = 0;   ///< χ² of the fit over its expectation
-  bool agrees = true;  ///< true if no parameter seen by both changes significantly (1 %)
+  double misfit = 0;  ///< χ² of the fit over its expectation
+  /// True if no parameter that this fit and the full fit both see differs significantly (1 %).
+  bool agrees = true;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinWithout>) {
@@ -166,8 +173,8 @@ struct TwinOptions {
   std::uint64_t seed = 1;
   Index draws = 1000;                     ///< number of posterior draws to keep
   std::optional<SpectrumForm> form = {};  ///< empty: chosen by likelihood
-  bool drop_bad_scans = true;             ///< omits scans far from the fit of all
-  bool leave_one_out = true;              ///< also fits without each instrument in turn
+  bool drop_bad_scans = true;             ///< true: omits scans far from the common fit
+  bool leave_one_out = true;              ///< true: also fits without each instrument in turn
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
@@ -181,18 +188,19 @@ constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
 
 /// Surface twin: the isotropic surface from which several scans by several instruments are samples.
 struct SurfaceTwin {
-  static constexpr double refused_above = 2.2;  ///< misfit above which a law is rejected
+  static constexpr double refused_above = 2.2;  ///< misfit above which a form is rejected
 
   SpectrumForm form = SpectrumForm::corner;
-  TwinParameter hurst, rolloff, short_cutoff;  ///< not available for a table
+  TwinParameter hurst, rolloff, short_cutoff;  ///< NaN for SpectrumForm::table
   TwinParameter rms_height, rms_slope;
   Index bins = 0;
-  double chi_square = 0;  ///< deviance of the fit over all bins
-  /// χ² over its expectation: 1 for the right law. A law is rejected above refused_above.
+  double chi_square = 0;  ///< χ² of the fit: its deviance, summed over all bins
+  /// χ² of the fit over its expectation: 1 for the right form of the spectrum. A form is rejected
+  /// if its misfit exceeds refused_above.
   double misfit = 0;
-  double form_ratio = 0;     ///< 2 ln of the likelihood ratio to the other form
-  double rolloff_ratio = 0;  ///< the same to a roll-off 30 times the largest scan
-  double cutoff_ratio = 0;   ///< the same to a cut-off far below the finest wave
+  double form_ratio = 0;     ///< 2 ln(likelihood ratio) to the other self-affine form
+  double rolloff_ratio = 0;  ///< likewise, to a roll-off at 30 times the largest scan
+  double cutoff_ratio = 0;   ///< likewise, to a cut-off far below the finest wave
   TwinSpectrum spectrum;
   std::vector<TwinGroup> groups;
   std::vector<TwinScan> scans;
@@ -200,7 +208,7 @@ struct SurfaceTwin {
   std::vector<std::string> warnings;  ///< what was omitted or not seen, and why
   std::vector<TwinDraw> draws;
 
-  /// Returns the draw selected by the seed: the parameters of one realisation.
+  /// Returns the draw that the seed selects, for the parameters of one realisation.
   const TwinDraw& draw(std::uint64_t seed) const;
 };
 
@@ -237,19 +245,23 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
 /// The mean periodogram of a group (scans of one instrument, size and grid) in bin b has the
 /// expectation
 ///     E_b = e^{2g} Σ_j R_bj M²(q_j) C(q_j) + N e^{2ν} + T_b,   M = exp(−½(qσ)²), σ = FWHM/2.355,
-/// with R the response of tapers, plane removal and sampling, N the noise, T = N e^τ (q/q_c)⁻⁵
-/// above the cut-off for a tip, q_c a quarter of the Nyquist wave number. Its ratio to E_b is Gamma
-/// distributed with m degrees, 1/m = 1/m_c + s²: m_c is the number of independent modes, including
-/// the correlation of bins; s = 0.03 is the model error, 0.5 about the cut-off and beyond. For a
-/// tip, bins up to R·κ_rms(q) = 0.08 are used, with κ_rms² = ⅜∫q⁴C d²q from the scans themselves,
-/// and s² grows by (0.75 R·κ_rms)². Priors: H flat in 0.02 … 1.2, ln λ_r up to 30 times the largest
-/// scan, ln λ_s from a twentieth of the finest wavelength used, g normal with the calibration
-/// errors, ν with 0.5 (1.5 if the noise was estimated), ln σ with 0.05. Roll-off and cut-off are
-/// seen if twice the log likelihood ratio exceeds 6; otherwise the profile likelihood, 1.353 below
-/// its maximum, gives a limit. scans must have at least one entry; those of one group need not be
-/// adjacent. Throws InvalidInput for no scan, fewer than 8 usable bins, or draws < 100. Cost: 0.1 s
-/// for the response of each kind of grid, 0.3 s for fits and draws. The bits do not depend on the
-/// number of threads.
+/// where e^g is the gain of the heights, R is the response of tapers, plane removal and sampling, M
+/// the transfer function of a lens with the width FWHM = resolution, N the noise with its factor
+/// e^{2ν}, and, for a tip, T = N e^τ (q/q_c)⁻⁵ the power that a tip adds above the cut-off, with
+/// q_c a quarter of the Nyquist wave number. The ratio of the mean periodogram to E_b has a Gamma
+/// distribution with m degrees of freedom, 1/m = 1/m_c + s²: m_c is the number of independent
+/// modes, reduced for the correlation of bins; s is the relative model error, 0.03, and 0.5 near
+/// and above the cut-off. For a tip of radius R_t, only bins with R_t·κ_rms(q) <= 0.08 are used,
+/// where κ_rms² = ⅜∫q⁴C d²q is the curvature of all waves up to q, computed from the scans
+/// themselves; s² grows by (0.75 R_t·κ_rms)². Prior distributions: H uniform between 0.02 and 1.2;
+/// ln λ_r uniform, λ_r up to 30 times the largest scan; ln λ_s uniform, λ_s from a twentieth of the
+/// finest wavelength used; g normal with the calibration errors as standard deviation; ν normal
+/// with 0.5 (1.5 if the noise was estimated); ln σ normal with 0.05. Roll-off and cut-off count as
+/// seen if twice the log likelihood ratio (rolloff_ratio, cutoff_ratio) exceeds 6; otherwise the
+/// wavelength at which the log profile likelihood lies 1.353 below its maximum is a limit. scans
+/// must have at least one entry; scans of one group need not be adjacent in the list. Throws
+/// InvalidInput for no scan, fewer than 8 usable bins, or draws < 100. Cost: 0.1 s for the response
+/// of each kind of grid, 0.3 s for fits and draws. The bits do not depend on the number of threads.
 SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options = {});
 
 }  // namespace salebra

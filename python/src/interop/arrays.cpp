@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// NumPy arrays from and to fields, without a copy where the layout allows it.
+// Conversion between NumPy arrays and fields, without a copy if the layout of the memory allows it.
 #include "interop/arrays.hpp"
 
 #include <cstring>
@@ -10,10 +10,10 @@
 namespace salebra::python {
 namespace {
 
-// Eigen's storage of a dynamic array. There is no way in Eigen to let an Array use memory that it
-// did not allocate; the library takes surfaces as Arrays; and an array of 4096² heights is not to
-// be copied for each call. So the three words are set here, checked below, and put back before
-// Eigen could free what it does not own.
+// The three words of which Eigen's dynamic arrays consist. Eigen's Array cannot use memory that it
+// did not allocate, but the library takes surfaces as Arrays, and a call must not copy 4096²
+// heights. So these words are set directly. The layout is checked below. They are reset before
+// Eigen could free memory that it does not own.
 struct Storage {
   double* data;
   Index rows, columns;
@@ -31,7 +31,7 @@ bool layout_is_known() {
   return storage.data == field.data() && storage.rows == 2 && storage.columns == 3;
 }
 
-// What numpy calls its array: pointer and shape of a two-dimensional contiguous array of doubles.
+// A two-dimensional contiguous array of doubles as an ndarray, which gives its pointer and shape.
 nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu> doubles(
     const nb::object& array) {
   return nb::cast<nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(array,
@@ -51,7 +51,7 @@ bool adopt_memory(Field& field, const double* data, Index rows, Index columns) {
   if (!known || reinterpret_cast<std::uintptr_t>(data) % alignment != 0 || rows * columns == 0)
     return false;
   field.resize(0, 0);
-  // The library takes surfaces as constants.
+  // The cast is safe, since the library takes surfaces as constants.
   set_storage(field, {const_cast<double*>(data), rows, columns});
   return true;
 }
@@ -119,21 +119,22 @@ nb::object empty_like(const Numbers& numbers, double*& data, std::size_t& size) 
 namespace nanobind::detail {
 
 bool as_array(handle source, const char* type, bool contiguous, object& array) noexcept {
-  // numpy reads texts, None and what has no numbers as objects or fails; none of them is an
-  // argument of ours.
+  // numpy.asarray would make an array of objects of texts and None, or fail.
   if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr()))
     return false;
-  // asarray would drop the unit of a quantity, which salebra._calls converts instead.
+  // numpy.asarray would drop the unit of a quantity with a unit; salebra._calls converts such
+  // quantities.
   if (hasattr(source, "to") && (hasattr(source, "units") || hasattr(source, "unit"))) return false;
-  const auto convert = [&]() -> PyObject* {  // the type of what is raised, none where all is well
+  // Returns the type of the exception to raise; nullptr if there is none.
+  const auto convert = [&]() -> PyObject* {
     try {
       const module_ numpy = module_::import_("numpy");
       object given = borrow(source);
       const bool masked = isinstance(source, numpy.attr("ma").attr("MaskedArray"));
       if (!masked) given = numpy.attr("asarray")(given);
-      // asarray would drop an imaginary part.
+      // numpy.asarray would drop an imaginary part.
       if (given.attr("dtype").attr("kind").equal(str("c"))) return PyExc_TypeError;
-      // asarray would take what lies under the mask for values.
+      // numpy.asarray would use the values of masked elements.
       if (masked)
         given = std::string_view(type) == "bool"
                     ? given.attr("filled")(false)
@@ -147,12 +148,13 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
   };
   PyObject* raised = convert();
   if (raised == PyExc_KeyboardInterrupt) {
-    // Nothing can be raised from here: a Ctrl-C that came just now waits until the call looks for
-    // it.
+    // A type caster of nanobind cannot raise an exception. If Ctrl-C came during the conversion, it
+    // is set again, so that the call, which checks for signals, raises KeyboardInterrupt.
     raised = convert();
     PyErr_SetInterrupt();
   }
-  return raised == nullptr;  // else nanobind reports the types that the function takes
+  // False makes nanobind raise a TypeError that lists the types that the function accepts.
+  return raised == nullptr;
 }
 
 bool type_caster<salebra::python::FieldArgument>::from_python(handle source, uint32_t,

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-/// NumPy arrays and the library's fields: views both ways, no copies of what is C-contiguous
-/// float64.
+/// NumPy arrays and fields of the library share memory, in arguments and in results. C-contiguous
+/// float64 arrays are not copied.
 namespace salebra::python {
 
 namespace nb = nanobind;
@@ -24,8 +24,8 @@ using Flags1 = nb::ndarray<nb::numpy, bool, nb::ndim<1>, nb::device::cpu>;
 using Flags2 = nb::ndarray<nb::numpy, bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Counts1 = nb::ndarray<nb::numpy, std::int64_t, nb::ndim<1>, nb::device::cpu>;
 
-/// What Python gave for a field: anything that numpy.asarray understands. A C-contiguous float64
-/// array is not copied.
+/// An argument that is a field: anything that numpy.asarray accepts. A C-contiguous float64 array
+/// is not copied.
 struct FieldArgument {
   nb::object array;  ///< numpy.ndarray, two-dimensional, C-contiguous, float64
   const double* data() const;
@@ -34,33 +34,35 @@ struct FieldArgument {
   Field copy() const;
 };
 
-/// What Python gave for a contact set: truth values (nx, ny).
+/// An argument that is a contact set: an array (nx, ny) of truth values.
 struct ContactArgument {
   ContactSet set;
 };
 
-/// What Python gave for a list of numbers: anything one-dimensional, or a single number.
+/// An argument that is a list of numbers: anything one-dimensional that numpy.asarray accepts, or a
+/// single number.
 struct Values {
   std::vector<double> values;
 };
 
-/// A number, or numbers of any shape, in; the same shape out.
+/// An argument that is a number or an array of any shape, for functions whose result has the same
+/// shape.
 struct Numbers {
   nb::object array;  ///< numpy.ndarray, float64, C-contiguous
   bool scalar = false;
 };
-/// function of each number.
+/// Calls function(number) for each number, and returns the results in the shape of the argument.
 template <class Function>
 nb::object for_each_number(const Numbers& numbers, const Function& function);
 
-/// A method, or a function of an object and a number, that takes and returns arrays too.
+/// Defines a method from function(object, number). The method also accepts an array, and then
+/// returns an array.
 template <class Class, class Function>
 void number_method(Class& bound, const std::string& name, const std::string& argument,
                    Function function, const char* description);
 
-/// A Field that lives in the memory of a NumPy array. The array must outlive the object, and the
-/// field must keep its size. Where the memory cannot be used as it is (not aligned as Eigen wants
-/// it), the field holds a copy.
+/// A Field in the memory of a NumPy array. The array must outlive this object, and the size of the
+/// field must not change. If the memory is not aligned as Eigen requires, the field is a copy.
 class BorrowedField {
  public:
   explicit BorrowedField(const FieldArgument& argument);
@@ -76,18 +78,20 @@ class BorrowedField {
   bool borrowed_;
 };
 
-/// Lets a Field point to foreign memory, and forget it again. Returns false, and does nothing,
-/// where it cannot.
+/// adopt_memory() lets a Field use the memory at `data`, which it does not own; release_memory()
+/// ends this before the Field is destroyed. adopt_memory() returns false, and does nothing, if the
+/// memory is not suitable.
 bool adopt_memory(Field& field, const double* data, Index rows, Index columns);
 void release_memory(Field& field);
 
-/// Views of what `owner` holds; they keep it alive.
+/// NumPy arrays that show the memory of `owner` and keep it alive.
 Array2 view(const Field& field, nb::handle owner);
 Flags2 view(const ContactSet& set, nb::handle owner);
 Array1 view(const std::vector<double>& values, nb::handle owner);
 Counts1 view(const std::vector<Index>& values, nb::handle owner);
 
-/// The member of every record of a list, as a strided view.
+/// One member of every record in a list, as a NumPy array with strides that shows the records'
+/// memory.
 template <class Record, class Member>
 nb::ndarray<nb::numpy, Member, nb::ndim<1>, nb::device::cpu> column_view(
     const std::vector<Record>& records, Member Record::*member, nb::handle owner) {
@@ -99,18 +103,18 @@ nb::ndarray<nb::numpy, Member, nb::ndim<1>, nb::device::cpu> column_view(
   return {first, {count}, owner, {stride}};
 }
 
-/// Arrays that Python owns alone.
+/// NumPy arrays that own the given numbers.
 Array1 array_of(std::vector<double> values);
 Array2 array_of(Field field);
 
-/// Read-only properties that are views.
-template <class Class, class Bound, class Type>
-void view_property(nb::class_<Bound>& bound, const char* name, Type Class::*member,
+/// Defines a read-only property that is a view of a member of the bound object.
+template <class Bound, class Member>
+void view_property(nb::class_<Bound>& bound, const char* name, Member member,
                    const char* description) {
   bound.def_prop_ro(
       name,
       [member](nb::handle_t<Bound> self) {
-        return view(nb::cast<const Bound&>(nb::handle(self)).*member, self);
+        return view(std::invoke(member, nb::cast<const Bound&>(nb::handle(self))), self);
       },
       description);
 }
@@ -158,7 +162,8 @@ void number_method(Class& bound, const std::string& name, const std::string& arg
 
 namespace nanobind::detail {
 
-/// Converts with numpy.asarray; whatever it cannot take is no argument of ours.
+/// Converts an object with numpy.asarray to an array of the given type. Returns false for an object
+/// that cannot be converted.
 bool as_array(handle source, const char* type, bool contiguous, object& array) noexcept;
 
 template <>

@@ -10,18 +10,19 @@
 #include <string_view>
 #include <utility>
 
-/// Enumerations of the library are texts in Python, such as boundary="free"; stubs tell them as
-/// typing.Literal.
+/// Enumerations of the library are texts in Python, as in boundary="free". The type stubs declare
+/// them as typing.Literal.
 namespace salebra::python {
 
 namespace nb = nanobind;
 
-/// A text that ought to name a value of the enumeration.
+/// A text argument that names a value of the enumeration.
 template <class Enum>
 struct Choice {
   std::string text;
 
-  /// Throws InvalidInput that names the field and what it may be.
+  /// The value of the enumeration. Throws InvalidInput, with `field` and the allowed names, for
+  /// another text.
   Enum value(std::string_view field) const {
     if (const auto value = parse_enum<Enum>(text)) return *value;
     std::string allowed;
@@ -31,13 +32,14 @@ struct Choice {
   }
 };
 
-/// typing.Literal['periodic', 'free'], of the words of the enumeration.
+/// The text typing.Literal['periodic', 'free'], with the names of the enumeration, for type stubs.
 template <class Enum>
 constexpr auto literal_of() {
   constexpr std::string_view before = "typing.Literal[";
   constexpr std::size_t size = [&] {
     std::size_t all = before.size();
-    for (const auto& [value, word] : EnumNames<Enum>::values) all += word.size() + 4;  // '…', and ]
+    // 4: two quotation marks, and ", " or "]".
+    for (const auto& [value, word] : EnumNames<Enum>::values) all += word.size() + 4;
     return all - 1;
   }();
   nb::detail::descr<size> text;

@@ -7,11 +7,11 @@
 
 namespace salebra::python {
 
-/// Remembers that this session used what the keys of salebra._citations stand for. Called with the
-/// interpreter's lock.
+/// Records that this session used these works. They are named by their keys in salebra._citations.
+/// The caller must hold the interpreter's lock.
 void cite(std::initializer_list<const char*> keys);
 
-/// The keys in the order of their first use.
+/// The keys recorded so far, in the order of their first use.
 const std::vector<std::string>& cited();
 void forget_citations();
 

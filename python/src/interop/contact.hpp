@@ -13,7 +13,8 @@
 
 namespace salebra::python {
 
-/// A state that knows its grid and its modulus, so that Python need not give them again.
+/// The Python object of a solved contact. It also keeps grid and contact modulus, so that the user
+/// does not have to give them again.
 struct BoundContact : NormalContactState {
   Grid2D grid;
   double contact_modulus = 0;
@@ -28,7 +29,8 @@ constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
   visit(&S::boundary, Kept{"boundary", "'periodic' or 'free'"});
 }
 
-/// Throws InvalidInput where several processes hold the state, as Surface::require_whole.
+/// Throws InvalidInput if the contact is distributed over processes. purpose: what needs it as a
+/// whole.
 inline void require_whole(const BoundContact& state, const std::string& purpose) {
   if (!state.communicator.alone())
     throw InvalidInput("state", "",
@@ -36,12 +38,12 @@ inline void require_whole(const BoundContact& state, const std::string& purpose)
                            " processes, and " + purpose + " needs it whole; gather it first");
 }
 
-/// What Python gave for the material of a normal contact: a Material, or its E* alone.
+/// An argument that is a Material or, since a normal contact needs no more, only E*.
 struct MaterialArgument {
   Material given;
   std::optional<double> contact_modulus;
 
-  /// Throws InvalidInput unless E* > 0.
+  /// The material; throws InvalidInput unless E* > 0.
   Material material() const {
     return contact_modulus ? Material::of_contact_modulus(*contact_modulus) : given;
   }

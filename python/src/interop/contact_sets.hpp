@@ -8,14 +8,14 @@
 
 namespace salebra::python {
 
-/// ContactSets as a Python object, and the grid that they belong to.
+/// The Python object of ContactSets, with the grid of the sets.
 struct BoundContactSets {
   ContactSets contact_sets;
   Grid2D grid;
-  std::string identity;  ///< what decides them, as a setting of a checkpoint
+  std::string identity;  ///< text that identifies the contacts in the settings of a checkpoint
 };
 
-/// A Python function of the indentation that returns a contact set and a force.
+/// An argument that is a Python function of the indentation. It returns a contact set and a force.
 struct ContactSetFunction {
   nanobind::object function;
 };

@@ -18,14 +18,15 @@ inline Trajectory trajectory(const std::variant<EqualFrequency, Drag>& motion,
   return trajectory_of(oscillation(motion), mean_indentation);
 }
 
-/// function(Oscillation) or function(TwoFrequencies).
+/// Calls function(EqualFrequency or Drag as Oscillation) or function(TwoFrequencies).
 template <class Function>
 auto with_motion(const Motion& motion, const Function& function) {
   if (const auto one = oscillation_of(motion)) return function(*one);
   return function(std::get<TwoFrequencies>(motion));
 }
 
-/// The operating point on a law: exactly one of the two keywords.
+/// The operating point on a contact law, of which the user must give exactly one of the two
+/// quantities.
 inline OperatingPoint operating_point_of(std::optional<double> indentation,
                                          std::optional<double> force) {
   require_one(indentation.has_value(), "indentation", force.has_value(), "force");
@@ -33,7 +34,8 @@ inline OperatingPoint operating_point_of(std::optional<double> indentation,
   return at_indentation(*indentation);
 }
 
-/// The operating point of a surface: exactly one of the four keywords.
+/// The operating point of a surface, of which the user must give exactly one of the four
+/// quantities.
 inline OperatingPoint operating_point_of(std::optional<double> pressure,
                                          std::optional<double> mean_gap,
                                          std::optional<double> indentation,

@@ -3,31 +3,33 @@
 
 #include <functional>
 #include <optional>
-#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/dissipation.hpp>
 #include <string>
-#include <vector>
+
+#include "interop/curves.hpp"
 
 namespace salebra::python {
 
-/// A damping constant with the assumptions behind it.
+/// A damping constant and its assumptions.
 struct JudgedDamping : DampingResult {
   std::optional<Assumptions> assumptions;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<JudgedDamping>) {
   describe(visit, std::type_identity<DampingResult>{});
-  visit(&JudgedDamping::assumptions, Kept{"assumptions",
-                                       "whether the contact may be taken for one without slip, "
-                                       "yielding and inertia; None where they were not asked for"});
+  visit(&JudgedDamping::assumptions,
+        Kept{"assumptions",
+             "assumptions: no slip, no yielding, no inertia; None if they "
+             "were not judged"});
 }
 
-/// The same as Python knows it. The assumptions take far longer than the constant and are therefore
-/// judged when they are read for the first time.
+/// The Python object of a damping result. To judge the assumptions takes far longer than to compute
+/// the damping constant, so they are judged when they are first read.
 struct BoundDamping : DampingResult {
   mutable std::optional<Assumptions> assumptions;
   mutable std::function<Assumptions()>
-      judge;  ///< empty: the assumptions are known, or were not asked for
+      judge;  ///< empty: the assumptions are known, or were not requested
 
   JudgedDamping judged() const {
     if (judge) assumptions = judge();
@@ -36,30 +38,21 @@ struct BoundDamping : DampingResult {
   }
 };
 
-/// Losses over one quantity, as pickles hold them and as Python knows them: a sequence of results with
-/// an array for each of their numbers.
-struct DampingCurve {
-  std::string coordinate;  ///< the quantity: "pressure", "force", …
-  std::vector<double> values;
-  std::vector<JudgedDamping> results;
-};
+/// Damping results for several values of one quantity. Pickles store them as
+/// CurveOf<JudgedDamping>.
+using BoundDampingCurve = CurveOf<BoundDamping>;
 
-constexpr void describe(auto&& visit, std::type_identity<DampingCurve>) {
-  keep(visit, &DampingCurve::coordinate, &DampingCurve::values, &DampingCurve::results);
+inline ContactParameters known(const ContactParameters* parameters) {
+  return parameters ? *parameters : ContactParameters{};
 }
 
-struct BoundDampingCurve {
-  std::string coordinate;
-  std::vector<double> values;
-  std::vector<BoundDamping> results;
-};
+/// Warns if the loss is NaN because the coefficient of friction was given and another input that is
+/// then needed was not. force_given: whether the motion was given by a force amplitude.
+void warn_of_unknown(const Motion& motion, const ContactParameters* parameters,
+                     bool force_given = false);
 
-inline ContactParameters known(const ContactParameters* parameters) { return parameters ? *parameters : ContactParameters{}; }
-
-/// Warns of a loss that is NaN because friction is known and another input is not.
-void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given = false);
-
-/// "slip_of_opening_springs broken, amplitude doubtful", or that none is.
+/// Text with the assumptions that do not hold, such as "slip_of_opening_springs broken, amplitude
+/// doubtful"; if there is none, a text that none is broken.
 std::string verdicts(const Assumptions& assumptions);
 
 }  // namespace salebra::python

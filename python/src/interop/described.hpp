@@ -7,8 +7,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <numbers>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/error.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,23 +20,20 @@
 
 namespace salebra::python {
 
-/// "mean gap of the deformed surfaces, m."
-inline std::string described_text(std::string_view meaning, Dimension dimension) {
-  std::string text(meaning);
-  if (dimension != Dimension::dimensionless) text += ", " + std::string(si_unit(dimension));
+/// The docstring for a line of a description, such as "mean gap of the deformed surfaces, m."
+std::string described_text(const auto& line) {
+  std::string text;
+  if constexpr (requires { line.long_name; })
+    text = line.long_name;
+  else
+    text = line.meaning;
+  if constexpr (requires { line.dimension; })
+    if (line.dimension != Dimension::dimensionless)
+      text += ", " + std::string(si_unit(line.dimension));
   return text + ".";
 }
-inline std::string described_text(const Quantity& quantity) {
-  return described_text(quantity.long_name, quantity.dimension);
-}
-inline std::string described_text(const Kept& kept) {
-  return described_text(kept.meaning, kept.dimension);
-}
-inline std::string described_text(const Part& part) {
-  return described_text(part.meaning, Dimension::dimensionless);
-}
 
-/// Words of an enumeration, or of lists of them.
+/// Whether values of this type are texts in Python: enumerations and lists of enumerations.
 template <class Value>
 constexpr bool has_words = std::is_enum_v<Value>;
 template <class Item>
@@ -50,29 +49,37 @@ inline auto words(const auto& value) {
   }
 }
 
-/// A read-only property of a described member: views of arrays, words of enumerations, the columns
-/// of a table.
+/// Stores the unit of a property, which unit_of_property() returns.
+void remember_unit(nb::handle type, std::string_view property, Dimension dimension);
+
+/// Defines a read-only property for one line of a description. `member` is a data member, a member
+/// function or a function of const Bound&. An array becomes a view, an enumeration its name, and a
+/// table one property for each of its columns.
 template <class Bound, class Member, class Line>
 void described_property(nb::class_<Bound>& bound, Member member, const Line& line) {
-  using Value = std::remove_cvref_t<std::invoke_result_t<Member, const Bound&>>;
+  using Result = std::invoke_result_t<Member, const Bound&>;
+  using Value = std::remove_cvref_t<Result>;
   if constexpr (std::is_same_v<Line, Table>) {
     describe(
         [&]<class Column>(Column column, const auto& inner) {
-          // A name that the whole has already is the whole's.
+          // If the class already has a property with the name of a column, this property stays.
           const std::string name(inner.name);
           if constexpr (std::is_member_object_pointer_v<Column>)
-            if (!nb::hasattr(bound, name.c_str()))
+            if (!nb::hasattr(bound, name.c_str())) {
+              remember_unit(bound, name, inner.dimension);
               column_property(bound, name.c_str(), member, column, described_text(inner).c_str());
+            }
         },
         std::type_identity<typename Value::value_type>{});
   } else {
     const std::string name(line.name), text = described_text(line);
     if (name.empty()) return;
-    if constexpr (!std::is_member_object_pointer_v<Member> &&
+    if constexpr (requires { line.dimension; }) remember_unit(bound, name, line.dimension);
+    if constexpr (!std::is_reference_v<Result> &&
                   requires(Value value) { array_of(std::move(value)); })
       bound.def_prop_ro(
-          name.c_str(), [member](const Bound& self) { return array_of((self.*member)()); },
-          nb::rv_policy::automatic, text.c_str());  // it owns what it returns
+          name.c_str(), [member](const Bound& self) { return array_of(std::invoke(member, self)); },
+          nb::rv_policy::automatic, text.c_str());  // moves the numbers into the array
     else if constexpr (requires(const Value& value) { view(value, nb::handle()); })
       view_property(bound, name.c_str(), member, text.c_str());
     else if constexpr (has_words<Value>)
@@ -83,12 +90,12 @@ void described_property(nb::class_<Bound>& bound, Member member, const Line& lin
       bound.def_ro(name.c_str(), member, text.c_str());
     else
       bound.def_prop_ro(
-          name.c_str(), [member](const Bound& self) { return (self.*member)(); }, text.c_str());
+          name.c_str(), [member](const Bound& self) { return std::invoke(member, self); },
+          text.c_str());
   }
 }
 
-/// A class with pickle, == and a read-only property for every line of the description of T: its
-/// name, its meaning and its unit.
+/// Binds a class with pickle, == and a read-only property for each line of the description of T.
 template <Described T>
 nb::class_<T> described_class(nb::module_& module, const char* name, const char* meaning) {
   nb::class_<T> bound(module, name, meaning);
@@ -98,8 +105,9 @@ nb::class_<T> described_class(nb::module_& module, const char* name, const char*
   return bound;
 }
 
-/// A constructor of keywords, one for each number that is described: the first `required` of them
-/// must be given, the others are those of T{}.
+/// Defines a constructor with a keyword for each number in the description of T. The first
+/// `required` keywords must be given; the others default to the values of T{}. `frequency` in Hz
+/// may be given instead of angular_frequency.
 template <Described T>
 void keyword_constructor(nb::class_<T>& bound, std::size_t required) {
   std::vector<std::pair<std::string, double T::*>> members;
@@ -109,27 +117,48 @@ void keyword_constructor(nb::class_<T>& bound, std::size_t required) {
           members.emplace_back(line.name, member);
       },
       std::type_identity<T>{});
+  constexpr bool oscillates = requires(T made) { made.angular_frequency; };
   std::string signature = "def __init__(self, *";
   for (std::size_t i = 0; i < members.size(); ++i) {
     signature += ", " + members[i].first + ": float";
     const double given = T{}.*members[i].second;
-    if (i >= required)
-      signature += given == given ? fmt::format(" = {:.1f}", given) : " = float('nan')";
+    const bool by_frequency = oscillates && members[i].first == "angular_frequency";
+    if (i >= required || by_frequency)
+      signature +=
+          given == given && i >= required ? fmt::format(" = {:.1f}", given) : " = float('nan')";
+    if (by_frequency) signature += ", frequency: float = float('nan')";
   }
   bound.def(
       "__init__",
       [members, required](T* self, const nb::kwargs& given) {
-        // What nanobind says of other arguments, which salebra._calls explains.
+        // The text that nanobind uses when it refuses arguments; salebra._calls replaces it by one
+        // that names the argument.
         const auto accept = [](bool right) {
           if (!right) throw nb::type_error("incompatible function arguments");
         };
-        T made;
         std::size_t found = 0;
+        const auto take = [&](const std::string& name, double& value) {
+          const bool there = given.contains(name.c_str());
+          if (there) accept(nb::try_cast(given[name.c_str()], value));
+          found += there;
+          return there;
+        };
+        T made;
+        bool by_frequency = false;
+        if constexpr (oscillates) {
+          double frequency = 0;
+          by_frequency = take("frequency", frequency);
+          const bool both = by_frequency && given.contains("angular_frequency");
+          require_that(!both, "frequency", "was given beside angular_frequency; give one of them");
+          if (by_frequency) made.angular_frequency = 2 * std::numbers::pi * frequency;
+        }
         for (std::size_t i = 0; i < members.size(); ++i) {
           const auto& [name, member] = members[i];
-          const bool there = given.contains(name.c_str());
-          accept(there ? nb::try_cast(given[name.c_str()], made.*member) : i >= required);
-          found += there;
+          if (by_frequency && name == "angular_frequency") continue;
+          const bool there = take(name, made.*member);
+          if (oscillates && !there && i < required && name == "angular_frequency")
+            throw nb::type_error("angular_frequency is missing; give it or frequency");
+          accept(there || i >= required);
         }
         accept(found == given.size());
         new (self) T(made);

@@ -7,8 +7,8 @@
 
 namespace nanobind::detail {
 
-/// A path, as str or os.PathLike[str]: nanobind's own caster names a generic type without its
-/// argument, which mypy --strict refuses.
+/// Converts a path given as str or os.PathLike[str]. The caster of nanobind declares os.PathLike
+/// without its type argument, which mypy --strict refuses.
 template <>
 struct type_caster<std::filesystem::path> {
   NB_TYPE_CASTER(std::filesystem::path, const_name("str | os.PathLike[str]"))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The argument `comm`: the processes of a communicator of mpi4py.
+// The argument `comm`: a communicator of mpi4py, whose processes compute together.
 #include "interop/processes.hpp"
 
 namespace salebra::python {

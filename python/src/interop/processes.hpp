@@ -12,7 +12,8 @@ namespace nb = nanobind;
 /// The argument `comm`: None, or a communicator of mpi4py.
 struct ProcessesArgument {
   nb::object comm = nb::none();
-  /// Throws InvalidInput where this build or that communicator cannot be used. Collective.
+  /// The communicator of these processes, or of one process for None. Throws InvalidInput if the
+  /// package was built without MPI or the communicator cannot be used. All processes must call.
   Communicator communicator() const;
 };
 

@@ -15,7 +15,7 @@ namespace salebra::python {
 
 using PixelSize = std::optional<std::variant<double, std::vector<double>>>;
 
-/// One distance of points or two.
+/// The distances of points along x and y; a single given distance stands for both.
 inline std::optional<std::pair<double, double>> pixel_size_of(const PixelSize& given) {
   if (!given) return {};
   if (const auto* step = std::get_if<double>(&*given)) return std::pair(*step, *step);
@@ -24,7 +24,7 @@ inline std::optional<std::pair<double, double>> pixel_size_of(const PixelSize& g
   return std::pair(steps.front(), steps.back());
 }
 
-/// x0, y0, x1, y1.
+/// The rectangle with the corners (x0, y0) and (x1, y1), from a list of these four numbers.
 inline std::optional<Rectangle> rectangle_of(const std::optional<std::vector<double>>& given) {
   if (!given) return {};
   require(given->size() == 4, "crop", given->size(), "numbers; give (x0, y0, x1, y1)");

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Python progress callbacks and signals during a computation without the interpreter's lock.
+// Progress callbacks in Python, and signals, while the library computes without the interpreter's
+// lock.
 #include "interop/running.hpp"
 
 namespace salebra::python {
 namespace {
 
-// Often enough for a person, too seldom to cost anything: taking the interpreter's lock may wait 5
-// ms for another thread.
+// Time between two checks for signals and progress. It is short for a person and long enough to
+// cost nothing: to take the interpreter's lock may need 5 ms while another thread has it.
 constexpr auto interval = std::chrono::milliseconds(100);
 
 }  // namespace
@@ -51,9 +52,10 @@ bool ProgressBridge::tell(const ProgressReport& report) {
 }
 
 void warn_user(const std::string& text) {
-  // Above the extension is the function of _calls.py, above that the user.
-  constexpr int intervals = 2;
-  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), levels) != 0) throw nb::python_error();
+  // The warning refers to the second caller, the line of the user; the first is the wrapper in
+  // _calls.py.
+  constexpr int frames = 2;
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), frames) != 0) throw nb::python_error();
 }
 
 Progress signals() {

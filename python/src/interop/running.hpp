@@ -18,13 +18,13 @@
 
 #include "base/stop_check.hpp"
 
-/// How long calls run: other Python threads go on, Ctrl-C stops them within a second, and progress
-/// is told.
+/// How long calls run: other Python threads continue, Ctrl-C stops the call within a second, and
+/// progress is reported.
 namespace salebra::python {
 
 namespace nb = nanobind;
 
-/// ProgressReport with a text of its own.
+/// A ProgressReport that owns its text `stage`.
 struct Report {
   std::string stage;
   double fraction = 0;
@@ -33,34 +33,35 @@ struct Report {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Report>) {
-  visit(&Report::stage, Kept{"stage", "such as 'contact', 'sweep', 'realisation'"});
+  visit(&Report::stage,
+        Kept{"stage", "name of the stage, such as 'contact', 'sweep', 'realisation'"});
   visit(&Report::fraction,
-        Kept{"fraction", "done of this stage, 0 … 1; a guess where the end is not known"});
+        Kept{"fraction", "done fraction of the stage, 0 … 1; an estimate if the end is unknown"});
   visit(&Report::step, Kept{"step", "iterations or items done"});
-  visit(&Report::residual, Kept{"residual", "of an iteration; 0 where there is none"});
+  visit(&Report::residual, Kept{"residual", "residual of an iteration; 0 if there is none"});
 }
 
-/// The argument `progress`: False, True for a bar of tqdm, or a function of a ProgressReport that
-/// returns False to stop.
+/// The argument `progress`: False, True for a progress bar of tqdm, or a function of a
+/// ProgressReport that returns False to stop the call.
 struct ProgressArgument {
   nb::object value = nb::bool_(false);
 };
 
-/// Makes a Progress of the argument. A Python error in it, Ctrl-C included, stops the work and is
-/// raised by rethrow().
+/// Makes a Progress callback of the argument `progress`. A Python error in the user's function, or
+/// Ctrl-C, stops the work; rethrow() then raises it.
 class ProgressBridge {
  public:
-  /// The first of several processes shows a bar.
+  /// communicator: of the processes that compute together; only the first of them shows a bar.
   explicit ProgressBridge(const ProgressArgument& argument, const Communicator& communicator = {});
   ProgressBridge(const ProgressBridge&) = delete;
   ProgressBridge& operator=(const ProgressBridge&) = delete;
   ~ProgressBridge();
 
-  /// Call it without the interpreter's lock.
+  /// The callback. The caller must not hold the interpreter's lock.
   Progress progress();
   void rethrow();
   bool failed() const { return error_.has_value(); }
-  /// Nothing is left to tell: the bar is closed, at its end where the work was done.
+  /// Closes the bar, at 100 % if the work was done.
   void finish(bool done);
 
  private:
@@ -72,10 +73,11 @@ class ProgressBridge {
   std::chrono::steady_clock::time_point last_{};
 };
 
-/// work(Progress) without the interpreter's lock. Collective over `ranks`: where a Python error
-/// stopped the work in one process, the others throw Interrupted.
+/// Runs work(Progress) without the interpreter's lock. All processes of the communicator must call:
+/// if a Python error stops the work in one process, the others throw Interrupted.
 template <class Work>
-auto interruptible(const ProgressArgument& argument, Work&& work, const Communicator& communicator = {}) {
+auto interruptible(const ProgressArgument& argument, Work&& work,
+                   const Communicator& communicator = {}) {
   ProgressBridge bridge(argument, communicator);
   std::exception_ptr failure;
   std::optional<decltype(work(Progress{}))> result;
@@ -95,15 +97,16 @@ auto interruptible(const ProgressArgument& argument, Work&& work, const Communic
   return std::move(*result);
 }
 
-/// A Progress for what a call without an argument `progress` leads to: Ctrl-C leaves the library as
-/// the Python exception that it is.
+/// A Progress callback for calls without an argument `progress`. On Ctrl-C it throws, and Python
+/// raises KeyboardInterrupt.
 Progress signals();
 
-/// A UserWarning where the user called; throws what a filter of warnings makes of it.
+/// Issues a UserWarning that refers to the line of the user. Throws if the user's warning filters
+/// turn it into an error.
 void warn_user(const std::string& text);
 
-/// work() without the interpreter's lock, for what reports no progress. Ctrl-C stops its loops, which
-/// ask stop_if_asked(), and is raised.
+/// Runs work() without the interpreter's lock and without progress reports. Ctrl-C stops loops of
+/// the library that call stop_if_asked(), and raises KeyboardInterrupt.
 template <class Work>
 auto unlocked(Work&& work) {
   return interruptible({}, [&](const Progress& progress) {

@@ -18,11 +18,11 @@
 
 namespace salebra::python {
 
-/// A Surface whose heights may live in a NumPy array. It stays where it is: copies would own what
-/// they do not.
+/// The Python object of a surface, whose heights may lie in the memory of a NumPy array. It cannot
+/// be copied, because destroying the copy would free this memory.
 struct BoundSurface {
   Surface surface;
-  nb::object array;  ///< that the heights live in; none where the surface owns them
+  nb::object array;  ///< the NumPy array that holds the heights; invalid if the surface owns them
 
   explicit BoundSurface(Surface&& owned) : surface(std::move(owned)) {}
   BoundSurface(const FieldArgument& heights, double size_x, double size_y, bool periodic,
@@ -32,34 +32,38 @@ struct BoundSurface {
   ~BoundSurface();
 };
 
-/// Throws InvalidInput where several processes hold it.
+/// Throws InvalidInput if the surface is distributed over processes. purpose: what needs it as a
+/// whole.
 inline void require_whole(const BoundSurface& surface, const std::string& purpose) {
   surface.surface.require_whole(purpose);
 }
 
-/// Gathers spectra and summits, of which each process holds those of its columns or rows.
+/// Throws InvalidInput for spectra and summits of a distributed surface, of which each process only
+/// has those of its columns or rows.
 template <class Part>
   requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
 void require_whole(const Part& part, const std::string& purpose) {
   if (!part.communicator.alone())
     throw InvalidInput(std::same_as<Part, SummitList> ? "summits" : "spectrum", "",
-                       "is spread over " + std::to_string(part.communicator.size()) + " processes, and " +
-                           purpose + " needs it whole; gather its surface first");
+                       "is spread over " + std::to_string(part.communicator.size()) +
+                           " processes, and " + purpose +
+                           " needs it whole; gather its surface first");
 }
 
-/// The members of what can be spread over processes.
+/// Calls require_whole() for classes that can be distributed, and does nothing for others.
 template <class Bound>
 void require_whole_if_spread(const Bound& bound, const char* purpose) {
   if constexpr (requires { require_whole(bound, purpose); }) require_whole(bound, purpose);
 }
 
-/// range(begin, end) of the rows that this process holds.
+/// The Python object range(begin, end) of the rows that this process holds.
 nb::object range_of(const RowPartition& rows);
 
-/// gather(root) of what has rows: itself where one process holds it, else what `whole` makes in
-/// that process, and None in the others.
+/// The method gather(root): returns the object itself if one process holds all rows. Otherwise it
+/// returns the result of `whole` in process `root`, and None in the others.
 template <class Bound, class Whole>
-nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& communicator, Whole&& whole) {
+nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& communicator,
+                  Whole&& whole) {
   if (communicator.alone()) {
     require(root == 0, "root", root, "must be one of the processes, counted from 0");
     return nb::borrow(self);
@@ -69,16 +73,17 @@ nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& commun
   return nb::cast(gathered.release(), nb::rv_policy::take_ownership);
 }
 
-/// function(surface) without the interpreter's lock.
+/// Calls function(surface) without the interpreter's lock, and returns its result.
 template <auto function>
 auto of_surface(const BoundSurface& surface) {
   return unlocked([&] { return function(surface.surface); });
 }
 
-/// A new Python object of a surface made by the library; its heights are not copied.
+/// Makes a Python object of a surface; heights are not copied.
 BoundSurface* new_surface(Surface surface);
 
-/// to_xarray() and, if wanted, plot(), which salebra._results and salebra._plots do.
+/// Defines the methods to_xarray() and, if `plots`, plot(), which call salebra._results and
+/// salebra._plots.
 template <class Bound>
 void result_methods(nb::class_<Bound>& bound, bool plots);
 
@@ -87,7 +92,7 @@ inline nb::object call_python(const char* module, const char* function, nb::hand
   return nb::module_::import_(module).attr(function)(self, *arguments, **keywords);
 }
 
-/// plot(), which salebra._plots does.
+/// Defines the method plot(), which calls salebra._plots.
 template <class Bound>
 void plot_method(nb::class_<Bound>& bound) {
   bound.def(
@@ -98,8 +103,7 @@ void plot_method(nb::class_<Bound>& bound) {
       },
       nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
               "matplotlib.axes.Axes"),
-      "Draws the result with matplotlib, which is imported now, on `ax` or on new axes, and "
-      "returns the axes.");
+      "Draws the result with matplotlib on `ax`, or on new axes, and returns the axes.");
 }
 
 template <class Bound>

@@ -14,13 +14,13 @@ namespace salebra::python {
 
 namespace nb = nanobind;
 
-/// What a pickle holds: this version, and the bytes.
+/// The content of a pickle: the present version of salebra, and the bytes.
 nb::tuple pickled(const std::string& bytes);
-/// The bytes of a pickle that this version wrote.
+/// The bytes in a pickle. Throws InvalidInput if another version of salebra wrote it.
 std::string_view unpickled(const nb::tuple& state);
 
-/// Pickle, copies and == of the values of the class T of the library, which Python knows as Bound:
-/// value(const Bound&) is one, and made(Bound*, T&&) puts one there.
+/// Defines pickle, copies and == for the class Bound. value(const Bound&) returns its value of a
+/// described type T, and make(Bound*, T&&) constructs a Bound from such a value.
 template <class Bound, class Value, class Make>
 void value_methods(nb::class_<Bound>& bound, Value value, Make make) {
   bound.def(

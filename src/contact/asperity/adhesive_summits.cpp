@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fuller and Tabor's adhesive summits, by JKR and by DMT.
+// Fuller and Tabor's model of adhesive summits, with JKR and with DMT summits.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/adhesive_summits.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 #include "height_density.hpp"
 
 namespace salebra {
@@ -26,7 +26,8 @@ double AdhesiveSummits::Summit::force(double a) const {
          (jkr ? std::sqrt(8 * pi * work * modulus * a * a * a) : 2 * pi * work * radius);
 }
 
-/// For summits that approach, the radius at δ = 0; for summits that separate, that at dδ/da = 0.
+/// The minimum contact radius a of a summit: when the surfaces approach, the radius at indentation
+/// δ = 0; when they separate, the radius at which dδ/da = 0.
 double AdhesiveSummits::min_radius(const Summit& summit, bool unloading) {
   if (!summit.jkr) return 0;
   const double at_touch = 2 * pi * summit.work * summit.radius * summit.radius / summit.modulus;
@@ -65,8 +66,10 @@ AdhesiveSummits::AdhesiveSummits(const SummitEnsemble& ensemble, const Material&
 
 AdhesiveSummits::~AdhesiveSummits() = default;
 
-/// ηA0 ∫ of_radius(a) φ(s + δ(a)) dδ, over a, in which no integrand is singular. What pulls and what
-/// presses may cancel: the error is one of both together.
+/// ∫ of_radius(a) φ(s + δ(a)) dδ times the number of summits, where φ is the density of summit
+/// heights, s the separation and δ(a) the indentation of a summit with contact radius a. It is
+/// integrated over a, in which no integrand is singular. Summits that pull and summits that press
+/// may cancel, so the tolerance refers to `scale`, the size of both contributions.
 template <class Function>
 double AdhesiveSummits::over_summits(double separation, double scale,
                                      const Function& of_radius) const {
@@ -112,14 +115,15 @@ AsperityContact AdhesiveSummits::at(double separation) const {
 }
 
 double AdhesiveSummits::pull_off_pressure() const {
-  // Where summits are of one height the curve varies over the reach of one, else over their heights.
+  // The force varies with the separation over the reach of one summit's adhesion if all summits
+  // have the same height, otherwise over the spread of the heights.
   const double reach = std::cbrt(std::pow(summit_.work / summit_.modulus, 2) * summit_.radius);
   const double step = std::max(common().height_scale / 4, summit_.jkr ? reach / 16 : 0.0);
   double best = common().upper_separation, least = 0;
   for (double s = best;; s -= step) {
     const double now = force(s);
     if (now < least) least = now, best = s;
-    // Beyond the deepest pull the force rises for good.
+    // Beyond the maximum pull, the force only rises as the separation falls.
     if (now > 0 || (least < 0 && now > least / 2)) break;
     if (least == 0 && s < -common().upper_separation) return 0;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Monte Carlo sampling of a summit ensemble: means and intervals of the GW force curve.
+// Monte Carlo sampling of a summit ensemble: means and confidence intervals of the force curve of
+// Greenwood and Williamson's model.
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@
 namespace salebra {
 namespace {
 
-// Streams of the random numbers: heights and positions of one summit are independent.
+// Streams of random numbers for summit heights and positions, so that the height and the position
+// of one summit are independent.
 constexpr std::uint32_t height_stream = 0x67770001, position_stream = 0x67770002;
 
 }  // namespace
@@ -64,8 +66,8 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
   result.summits = static_cast<int>(expected);
   std::vector<double> descending = separations;
   std::ranges::sort(descending, std::ranges::greater{});
-  // Positions, separations and K_t come from the statistical model; what follows puts in the drawn
-  // sums.
+  // Indentations and gaps come from the statistical model; the sums over drawn summits replace all
+  // other columns of the curve below.
   result.mean = curve_at_separations(statistical, descending);
   result.mean.model = "greenwood-williamson-monte-carlo";
 
@@ -78,7 +80,8 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
           draw_summits(ensemble, result.summits, std::sqrt(nominal_area), options.seed,
                        static_cast<int>(realisation)),
           material, nominal_area);
-      // DeterministicSummits counts from the mean of the drawn heights, the ensemble from z = 0.
+      // DeterministicSummits counts separations from the mean of the drawn heights; the statistical
+      // ensemble counts them from height z = 0.
       for (const double separation : descending) {
         detail::stop_if_asked();
         contacts[static_cast<std::size_t>(realisation)].push_back(

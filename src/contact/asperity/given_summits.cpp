@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hertzian caps and common parameters of a list of measured summits.
+// Hertzian caps of a list of measured summits, and the parameters that their models share.
 #include "given_summits.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace salebra::detail {
 namespace {
 
 double mean_of_heights(const std::vector<Summit>& summits) {
-  require(!summits.empty(), "summits", 0, "are too few; a contact needs at least one");
+  require(!summits.empty(), "summits", 0, "given; a contact needs at least one");
   double sum = 0;
   for (const Summit& summit : summits) {
     require(std::isfinite(summit.height), "summits.height", summit.height, "must be finite");

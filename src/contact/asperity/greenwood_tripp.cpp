@@ -10,7 +10,7 @@
 namespace salebra {
 namespace {
 
-/// The sum of two heights, as heights of an ensemble of its own.
+/// The ensemble whose heights are sums of a summit height of the first side and one of the second.
 SummitEnsemble sum_of_sides(const SummitEnsemble& first, const SummitEnsemble& second) {
   for (const SummitEnsemble& side : {first, second}) {
     require_positive(side.summit_density, "summit_density");
@@ -18,7 +18,7 @@ SummitEnsemble sum_of_sides(const SummitEnsemble& first, const SummitEnsemble& s
     require_positive(side.summit_rms, "summit_rms");
     require(side.distribution == SummitDistribution::gaussian, "distribution",
             side.distribution == SummitDistribution::exponential ? "exponential" : "tabulated",
-            "has no closed sum; two rough sides need Gaussian heights");
+            "is not available for two rough sides, which need Gaussian heights");
   }
   return {.summit_density = first.summit_density * second.summit_density,
           .radius = first.radius * second.radius / (first.radius + second.radius),
@@ -47,9 +47,10 @@ GreenwoodTripp::GreenwoodTripp(const SummitEnsemble& first, const SummitEnsemble
   const double radius = first.radius * second.radius / radii;
   pairs_ =
       2 * std::numbers::pi * radii * first.summit_density * second.summit_density * nominal_area;
-  // Each pair has the area πRw; ∫_0^{z−s} w dw = (z−s)²/2.
+  // A pair of summits with effective radius R whose heights overlap by w has the contact area πRw;
+  // ∫_0^{z−s} w dw = (z−s)²/2 with the sum z of the two heights and the separation s.
   area_ = pairs_ * std::numbers::pi * radius / 2;
-  // ∫_0^{z−s} w^{3/2} dw = (2/5)(z−s)^{5/2}.
+  // The force of such a pair is (4/3)E*√R w^{3/2}; ∫_0^{z−s} w^{3/2} dw = (2/5)(z−s)^{5/2}.
   scale_ = pairs_ * 4.0 / 3 * material.contact_modulus * std::sqrt(radius) * 2 / 5;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Greenwood-Williamson model, statistical and summit by summit: its curves and its contact law.
+// Greenwood and Williamson's model, as a statistical ensemble and summit by summit: force curves
+// and contact law.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,8 +9,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 
+#include "base/numerics/quadrature.hpp"
 #include "base/stop_check.hpp"
-#include "contact/quadrature.hpp"
 #include "given_summits.hpp"
 #include "height_density.hpp"
 
@@ -52,7 +53,8 @@ AsperityModel::~AsperityModel() = default;
 
 double AsperityModel::separation_of(double target) const {
   require_positive(target, "force");
-  // ln F bends little; the least positive number stands for the force before first touch.
+  // The root is sought in ln F, which is nearly straight over the separation. The smallest positive
+  // number replaces the force 0 before first touch.
   const auto excess = [&](double separation) {
     return std::log(std::max(force(separation), std::numeric_limits<double>::min()) / target);
   };
@@ -158,7 +160,7 @@ ForceSample force_sample(const AsperityModel& model, double separation,
           .pressure = contact.force / common.nominal_area,
           .contact_area_fraction = contact.contact_area / common.nominal_area,
           .normal_stiffness = contact.normal_stiffness,
-          // NaN where G* is.
+          // NaN if G* is NaN
           .tangential_stiffness = common.material.tangential_modulus /
                                   common.material.contact_modulus * contact.normal_stiffness,
           .converged = contact.converged};

@@ -9,17 +9,19 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 
 namespace salebra::detail {
 namespace {
 
 constexpr double relative_tolerance = 1e-12;
-// exp(−exponent) is lost beside 1 in double precision, with room for the powers of z − s before it.
+// Densities of summit heights are cut off where they have fallen by exp(−negligible_exponent),
+// which is negligible against 1 in double precision, even times the powers of height minus
+// separation that the moments contain.
 constexpr double negligible_exponent = 45;
 
-/// ∫ (z−h)^n φ(z) dz over [max(h, low), high] for a smooth φ, as 2∫ t^{2n+1} φ(h + t²) dt: even at
-/// n = −1/2 nothing is singular.
+/// ∫ (z−h)^n φ(z) dz over [max(h, low), high] for n = `exponent` and a smooth density φ, computed
+/// as 2∫ t^{2n+1} φ(h + t²) dt, whose integrand is not singular even at n = −1/2.
 double shifted_moment(double exponent, double h, double low, double high,
                       const std::function<double(double)>& density) {
   const double from = std::sqrt(std::max(0.0, low - h)), to = std::sqrt(std::max(0.0, high - h));
@@ -34,13 +36,14 @@ double shifted_moment(double exponent, double h, double low, double high,
   return integral.value;
 }
 
-/// F_n(h) = ∫_h^∞ (z−h)^n φ(z) dz with σ = 1, GW's notation.
+/// F_n(h) = ∫_h^∞ (z−h)^n φ(z) dz in Greenwood and Williamson's notation: n = `exponent`, φ the
+/// standard normal density.
 double gaussian_moment(double exponent, double h) {
   if (exponent == 0) return std::erfc(h / std::numbers::sqrt2) / 2;
   // φ(z) falls from φ(0), or from φ(h) if h > 0, by exp(−negligible_exponent) at z = high.
   const double reach = std::sqrt(2 * negligible_exponent + std::max(h, 0.0) * std::max(h, 0.0));
-  // The factor φ(h) is taken out of the integrand, so that it does not underflow before the result
-  // does.
+  // The factor φ(h) is taken out of the integrand: with it, the integrand would underflow at
+  // heights where the moment does not.
   const double offset = std::max(h, 0.0) * std::max(h, 0.0) / 2;
   const double scaled = shifted_moment(exponent, h, -reach, reach,
                                        [&](double z) { return std::exp(offset - z * z / 2); });
@@ -54,7 +57,7 @@ double exponential_moment(double exponent, double h) {
 }
 
 void require_table(const std::vector<HeightDensityPoint>& table) {
-  require(table.size() >= 2, "table", table.size(), "points are too few; at least two are needed");
+  require(table.size() >= 2, "table", table.size(), "points given; at least two are needed");
   for (std::size_t i = 0; i < table.size(); ++i) {
     require(std::isfinite(table[i].density) && table[i].density >= 0, "table.density",
             table[i].density, "must be finite and >= 0");
@@ -63,7 +66,7 @@ void require_table(const std::vector<HeightDensityPoint>& table) {
   }
 }
 
-/// Probability below each point of a piecewise linear density.
+/// Probability of a height below each point of a piecewise linear density.
 std::vector<double> cumulative_of(const std::vector<HeightDensityPoint>& table) {
   std::vector<double> cumulative{0};
   for (std::size_t i = 1; i < table.size(); ++i)
@@ -101,7 +104,8 @@ double HeightDensity::tabulated_moment(double exponent, double separation) const
   for (std::size_t i = 1; i < table_.size(); ++i) {
     const HeightDensityPoint &below = table_[i - 1], &above = table_[i];
     if (above.height <= separation) continue;
-    // φ = constant + gradient·t with t = z − s, each power of t integrated in closed form.
+    // Between two points φ = constant + gradient·t, where t = z − s is the height above the
+    // separation s; each power of t is integrated in closed form.
     const double gradient = (above.density - below.density) / (above.height - below.height);
     const double constant = below.density + gradient * (separation - below.height);
     const double from = std::max(0.0, below.height - separation), to = above.height - separation;
@@ -119,8 +123,8 @@ double HeightDensity::quantile(double probability) const {
   const double width = next.height - below.height;
   const double rest = std::max(0.0, probability - cumulative_[i - 1]);
   const double gradient = (next.density - below.density) / width;
-  // The root of density·t + gradient·t²/2 = rest, in the form that does not cancel for either sign
-  // of the gradient.
+  // The distance t above the point `below` at which below.density·t + gradient·t²/2 = rest, in a
+  // form without cancellation for either sign of the gradient.
   const double root = std::sqrt(std::max(0.0, below.density * below.density + 2 * gradient * rest));
   const double sum = below.density + root;
   return below.height + (sum > 0 ? std::min(width, 2 * rest / sum) : 0.0);
@@ -129,9 +133,9 @@ double HeightDensity::quantile(double probability) const {
 double HeightDensity::highest() const {
   switch (distribution_) {
     case SummitDistribution::gaussian:
-      return 37 * sigma_;  // exp(−37²/2): the last decades of double precision
+      return 37 * sigma_;  // the density has fallen by exp(−37²/2)
     case SummitDistribution::exponential:
-      return 700 * sigma_;  // exp(−700)
+      return 700 * sigma_;  // the density has fallen by exp(−700)
     default:
       return table_.back().height;
   }
@@ -166,7 +170,7 @@ std::vector<double> HeightDensity::support(double from) const {
   std::vector<double> positions;
   const double h = std::max(0.0, from / sigma_);
   if (distribution_ == SummitDistribution::gaussian) {
-    // Beyond h the density falls over 1/h.
+    // Above the height h > 1 (in σ), the Gaussian density falls over a distance of about 1/h.
     const double reach = std::sqrt(2 * negligible_exponent + h * h);
     positions = {-reach, -3, 0, h > 0 ? h + 3 / (1 + h) : 3, reach};
     for (double& position : positions) position *= sigma_;

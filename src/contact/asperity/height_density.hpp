@@ -6,26 +6,28 @@
 
 namespace salebra::detail {
 
-/// The density φ(z) of summit heights of an ensemble, normalised.
+/// The normalised density φ(z) of the summit heights of an ensemble.
 class HeightDensity {
  public:
-  /// Throws InvalidInput as StatisticalSummits does for what belongs to φ.
+  /// Throws InvalidInput, as StatisticalSummits does, for invalid members of the ensemble that
+  /// define φ.
   explicit HeightDensity(const SummitEnsemble& ensemble);
 
-  /// ∫_s^∞ (z−s)^n φ(z) dz, m^n, for n >= −1/2 a multiple of 1/2. Relative error below 1e-10.
+  /// ∫_s^∞ (z−s)^n φ(z) dz in m^n, with n = `exponent`, which is >= −1/2 and a multiple of 1/2, and
+  /// s = `separation`. Relative error below 1e-10.
   double moment(double exponent, double separation) const;
   double density(double height) const;  ///< φ(z), 1/m
-  /// From a height on, where φ is more than nothing: both ends, and places between to integrate by;
-  /// empty where no summit is higher.
+  /// Returns heights z >= `from` for a quadrature over φ: the lowest and highest z at which φ is
+  /// not negligible, and break points between these two. Empty if no summit is higher than `from`.
   std::vector<double> support(double from) const;
-  /// z below which the fraction 0 < probability < 1 of all summits lies, for distributions other
-  /// than Gaussian.
+  /// Height below which the fraction 0 < probability < 1 of all summits lies; not for Gaussian
+  /// heights.
   double quantile(double probability) const;
-  /// No summit lies above, or none that double precision could tell from none.
+  /// Height above which no summit lies, to double precision.
   double highest() const;
   /// Heights where φ is not smooth.
   std::vector<double> breaks() const;
-  /// A step of s in which the moments change by a factor of a few.
+  /// A change of the separation over which the moments change by a factor of two to ten, m.
   double scale() const;
 
  private:

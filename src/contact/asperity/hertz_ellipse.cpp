@@ -11,8 +11,9 @@
 namespace salebra::detail {
 namespace {
 
-/// K(e) and D(e) = (K − E)/e² by Carlson's integrals, which do not cancel for a circle; complement
-/// = 1 − e² = (b/a)².
+/// The complete elliptic integrals K(e) (`first`) and D(e) = (K − E)/e² (`difference`) of the
+/// eccentricity e of a contact ellipse with semi-axes a >= b, by Carlson's integrals, which do not
+/// cancel for a circle; complement = 1 − e² = (b/a)².
 struct Integrals {
   double complement, first, difference;
 
@@ -21,21 +22,23 @@ struct Integrals {
         first(gsl_sf_ellint_RF(0, complement, 1, GSL_PREC_DOUBLE)),
         difference(gsl_sf_ellint_RD(0, complement, 1, GSL_PREC_DOUBLE) / 3) {}
 
-  /// κ2/κ1 of the paraboloid whose contact has these axes.
+  /// Ratio κ2/κ1 <= 1 of the curvatures of the paraboloid whose contact ellipse has these
+  /// semi-axes.
   double curvature_ratio() const { return complement * difference / (first - difference); }
 };
 
 }  // namespace
 
-// The ellipse with semi-axes a >= b under p0√(1 − x²/a² − y²/b²) (Johnson, Contact Mechanics,
-// 4.26–4.32):
+// Hertz contact of a paraboloid with curvatures κ1 >= κ2: the contact is an ellipse with semi-axes
+// a >= b under the pressure p0√(1 − x²/a² − y²/b²) (Johnson, Contact Mechanics, 4.26–4.32). With
+// the elliptic integrals K and D above and the eccentricity e,
 //     δ = p0 b K/E*,  κ2/2 = p0 b D/(E* a²),  F = (2/3)p0πab,
 // hence a² = 2δD/(Kκ2), F = (2π/3)E* a δ/K, and b² = (1 − e²)a².
 HertzEllipse hertz_ellipse(double curvature1, double curvature2) {
   const double ratio = std::clamp(curvature2 / curvature1, 1e-3, 1.0);
   const double smaller = ratio * curvature1;
-  // ln(κ2/κ1) against ln(1 − e²) is nearly straight, of slope 3/4: secant steps converge from
-  // there.
+  // ln(κ2/κ1) is nearly a straight line over ln(1 − e²), of slope 3/4: secant steps that start from
+  // this line converge.
   const double target = std::log(ratio);
   auto miss = [&](double log_complement) {
     return std::log(Integrals(std::exp(log_complement)).curvature_ratio()) - target;
@@ -51,7 +54,8 @@ HertzEllipse hertz_ellipse(double curvature1, double curvature2) {
     log_complement = next;
   }
   const Integrals integrals(std::exp(log_complement));
-  const double axis = 2 * integrals.difference / (integrals.first * smaller);  // a²/δ
+  const double axis =
+      2 * integrals.difference / (integrals.first * smaller);  // a²/δ of the contact ellipse
   const double slope = std::numbers::pi / (2 * integrals.first);
   return {.force_radius = slope * slope * axis,
           .area_radius = axis * std::sqrt(integrals.complement)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hertzian summits that displace each other elastically: Newton's method with CG inside.
+// Hertzian summits that displace each other elastically, by Newton's method with conjugate
+// gradients for its linear systems.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,7 +35,7 @@ std::vector<detail::PlanePoint> positions_of(const std::vector<Summit>& summits)
   return points;
 }
 
-/// P (over E*) and dP/dδ of a cap at its indentation; 0 out of contact.
+/// Load P divided by E*, and dP/dδ divided by E*, of a cap at its indentation δ; 0 out of contact.
 struct Hertz {
   double load, stiffness;
 };
@@ -44,8 +45,9 @@ Hertz hertz(const detail::HertzCap& cap, double indentation) {
   return {2.0 / 3 * stiffness * depth, stiffness};
 }
 
-/// c for which caps at δ_i + c carry the load together. Newton's method from where one of them
-/// carries it alone: the sum is convex in c, so that no step overshoots.
+/// Returns the shift c for which caps at the indentations δ_i + c together carry the load. Newton's
+/// method starts where one cap alone carries the load; the sum of the loads is convex in c, so no
+/// step overshoots.
 double common_shift(const std::vector<detail::HertzCap>& caps, const Values& indentation,
                     double load) {
   double shift = std::numeric_limits<double>::infinity();
@@ -67,14 +69,14 @@ double common_shift(const std::vector<detail::HertzCap>& caps, const Values& ind
   return shift;
 }
 
-/// The summits that carry load at the moment, with sums of their own: most solves concern only
-/// them.
+/// The summits that carry load in the current iterate, with a PeriodicPointLoads kernel of their
+/// own: most linear systems concern only these summits.
 struct Contacts {
   Members members;
   detail::PeriodicPointLoads kernel;
 };
 
-/// Reports progress; throws Interrupted when asked to stop.
+/// Reports progress; throws Interrupted if the callback asks to stop.
 struct SummitWatch {
   const Progress& progress;
   int step = 0;
@@ -87,16 +89,18 @@ struct SummitWatch {
 };
 
 struct LinearSolution {
-  Values scaled;     ///< D^{−1/2}x of (D⁻¹ + G)x + shift = rhs
-  double shift = 0;  ///< for which Σx = 0; 0 where the sum is free
+  Values scaled;     ///< √D⁻¹ x; x solves (D⁻¹ + G)x + shift = right
+  double shift = 0;  ///< makes Σx = 0 if required, otherwise 0
   bool converged = false;
 };
 
-/// Conjugate gradients on I + √D G √D, whose spectrum starts near 1, with Σx = 0 held by projection
-/// where asked for. root: √D > 0. Stops where two contacts so close to each other that a point
-/// force no longer describes them make it indefinite, with the descent direction reached until
-/// then. A separate loop, because the first direction is the result where the system is indefinite,
-/// and the projection acts on the residual, which the shift is read from.
+/// Solves (D⁻¹ + G)x + shift = right, where the diagonal matrix D holds the contact stiffnesses and
+/// G the displacements of the summits under unit loads on the other summits. Conjugate gradients on
+/// I + √D G √D, whose spectrum starts near 1; if hold_sum is true, a projection keeps Σx = 0. root:
+/// the elements of √D, all > 0. Two contacts that are too close to be described as point forces
+/// make the matrix indefinite; then the iteration stops at the descent direction reached so far.
+/// This iteration has its own loop, because with an indefinite matrix the first direction is the
+/// result, and because the projection acts on the residual, from which the shift is read.
 LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values& right,
                             double tolerance, bool hold_sum, const SummitWatch& watch) {
   const std::size_t n = root.size();
@@ -143,12 +147,12 @@ LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values
 
 }  // namespace
 
-// Loads are in units of E* throughout, so that they and the kernel are geometry.
+// Loads are divided by E*, so that loads and the kernel depend only on geometry.
 struct InteractingSummits::System {
   std::vector<detail::HertzCap> caps;
   std::vector<detail::PlanePoint> points;
   double lx, ly;
-  mutable std::mutex mutex;  // of the kernel's work space: at() may run in several threads
+  mutable std::mutex mutex;  // for the kernel's work space: threads share at()
   mutable detail::PeriodicPointLoads kernel;
   mutable std::unique_ptr<Contacts> last_contacts;
 
@@ -167,7 +171,8 @@ struct InteractingSummits::System {
     return result;
   }
 
-  /// Those with stiffness > 0; kept while they stay the same.
+  /// Returns the summits with stiffness > 0; their kernel is kept while the set of these summits
+  /// stays the same.
   Contacts& contacts_of(const Values& stiffness) const {
     Members members;
     for (std::size_t i = 0; i < size(); ++i)
@@ -196,13 +201,16 @@ InteractingSummits::InteractingSummits(const std::vector<Summit>& summits, const
 
 InteractingSummits::~InteractingSummits() = default;
 
-/// The state that Newton's method moves: indentations (negative: gaps) and what follows from them.
+/// One iterate of Newton's method: the indentations (negative: gaps) of all summits, and the
+/// quantities that follow from the indentations. Below, z_i is the height of summit i, s the
+/// separation, δ_i an indentation, P_i a load and (GP)_i the displacement of summit i by the loads
+/// on the others.
 struct InteractingSummits::Iterate {
   Values indentation, loads, stiffness;
   Values error;  ///< of each indentation: z_i − s − (GP)_i − δ_i
   double separation = 0;
-  double energy = 0;  ///< Σ∫δ dP + ½ P·GP − P·(z−s), least where all contacts are in equilibrium
-  double residual = 0;  ///< greatest error of an indentation over the greatest indentation
+  double energy = 0;  ///< Σ∫δ dP + ½ P·GP − P·(z−s), minimal if all contacts are in equilibrium
+  double residual = 0;  ///< maximum error of an indentation over the maximum indentation
 };
 
 InteractingSummits::Iterate InteractingSummits::evaluated(Values indentation,
@@ -210,7 +218,8 @@ InteractingSummits::Iterate InteractingSummits::evaluated(Values indentation,
   const System& system = *system_;
   const std::size_t n = system.size();
   Iterate iterate{std::move(indentation), Values(n), Values(n), Values(n), goal.separation, 0, 0};
-  // Under a given load every iterate carries it, and s is what fits the contacts best.
+  // If the load is given, every iterate carries this load, and its separation s is the one that
+  // makes the errors of the indentations smallest.
   if (goal.load) {
     const double shift = common_shift(system.caps, iterate.indentation, *goal.load);
     for (double& depth : iterate.indentation) depth += shift;
@@ -285,7 +294,7 @@ InteractingSummits::State InteractingSummits::equilibrium(Values indentation, co
         trial_indentation[i] = current.indentation[i] + length * step[i];
       Iterate trial = evaluated(std::move(trial_indentation), goal);
       watch();
-      // Close to the end the energy no longer resolves the step, but the residual does.
+      // Close to the solution the energy no longer resolves a step, but the residual does.
       accepted = trial.energy <= current.energy + 1e-4 * length * slope ||
                  trial.residual <= 0.5 * current.residual;
       if (accepted) current = std::move(trial);
@@ -329,7 +338,7 @@ double InteractingSummits::force(double separation) const {
 double InteractingSummits::separation_of(double target) const {
   const State state = solve_for_force(target);
   if (!state.converged)
-    throw NotConverged("interacting_summits: no equilibrium at the force asked for");
+    throw NotConverged("interacting_summits: no equilibrium at the requested force");
   return state.separation;
 }
 
@@ -356,8 +365,9 @@ AsperityContact InteractingSummits::contact_of(const State& state, const Progres
   Contacts& contacts = system.contacts_of(stiffness);
   Values roots;
   for (const std::uint32_t i : contacts.members) roots.push_back(std::sqrt(stiffness[i]));
-  // (D⁻¹ + G)P' = 1 and, once more differentiated, (D⁻¹ + G)P'' = ½(P'/D)²/δ, on the summits in
-  // contact.
+  // With loads P of the summits in contact, stiffnesses D = dP/dδ, the compliance G between summits
+  // and indentations δ, the derivatives of P with respect to the approach of the bodies follow from
+  // (D⁻¹ + G)P' = 1 and, differentiated once more, (D⁻¹ + G)P'' = ½(P'/D)²/δ.
   const SummitWatch watch{progress ? progress : options_.on_progress};
   const auto first =
       linear_solve(contacts, roots, Values(roots.size(), 1.0), options_.tolerance, false, watch);

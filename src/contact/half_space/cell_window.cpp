@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows of cells around a contact set, and checks of a solve on it.
+// Windows of cells around a contact set, and checks of the arguments of solves on such a set.
 #include "cell_window.hpp"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const
   });
   require(boundary == Boundary::free || !rows.communicator().all_agree(contact.all()), "contact",
           contact.size(),
-          "cells are all in contact; a periodic surface in full contact has no finite stiffness");
+          "cells, all of them, are in contact; a periodic surface in full contact has no finite "
+          "stiffness");
 }
 
 void require_limits(double tolerance, int max_iterations) {

@@ -18,16 +18,17 @@ struct CellWindow {
 /// The smallest window that holds every cell of the set; empty for an empty set.
 CellWindow bounding_window(const ContactSet& cells);
 
-/// The window on which a set is solved: the whole grid where periodic; at least one cell.
+/// The window of cells on which a contact set is solved: the whole grid if periodic, otherwise the
+/// bounding window of the set; at least one cell.
 CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
 
-/// Throws InvalidInput unless the set has the grid's shape and, where periodic, a cell that is not
-/// in contact.
+/// Throws InvalidInput unless the contact set has the grid's shape and, with a periodic boundary,
+/// lacks at least one cell.
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
-/// Does so for a set whose rows are spread over processes. Collective.
+/// Like require_contact(), for a set whose rows are distributed over processes. Collective.
 void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const RowPartition& rows,
                             Boundary boundary);
-/// Throws InvalidInput unless a solve on a contact set can be held to these: 1e-14 … 0.1, and >= 1.
+/// Throws InvalidInput unless tolerance lies in 1e-14 … 0.1 and max_iterations is >= 1.
 void require_limits(double tolerance, int max_iterations);
 
 }  // namespace salebra::detail

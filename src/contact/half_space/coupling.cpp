@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dundurs' coupling of two bodies, and the displacements it adds across normal and tangential.
+// Dundurs' coupling of two bodies, and the displacements that it adds: normal displacements by
+// shear tractions, tangential displacements by pressures.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -22,7 +23,7 @@ using std::numbers::pi;
 }  // namespace
 
 double coupling_constant(const ElasticBody& first, const ElasticBody& second) {
-  Material::of_bodies(first, second);  // for its checks
+  Material::of_bodies(first, second);  // throws if the elastic constants are invalid
   const auto of = [](const ElasticBody& body) {
     return (1 - 2 * body.poisson) / (4 * pi * body.shear());
   };
@@ -30,11 +31,10 @@ double coupling_constant(const ElasticBody& first, const ElasticBody& second) {
 }
 
 double coupling_constant(const Material& material) {
-  require(
-      std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed),
-      "material", material.cerruti_isotropic,
-      "as Cerruti's constant does not determine the coupling; give Young's moduli and Poisson's "
-      "ratios, or a contact modulus with Poisson's ratio");
+  require(std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed),
+          "material", material.cerruti_isotropic,
+          "as Cerruti's constant does not determine the coupling; give Young's moduli and "
+          "Poisson's ratios, or a contact modulus with Poisson's ratio");
   return (material.cerruti_isotropic - material.cerruti_directed) / 2;
 }
 
@@ -55,8 +55,9 @@ double cell_gradient_integral(double x, double y, double dx, double dy) {
   return sum;
 }
 
-// u_z = K_x * τ_x + K_y * τ_y and −u_t = (K_x * p, K_y * p): one pair of kernels K_00 = K_x and
-// K_01 = K_10 = K_y serves both.
+// Normal displacement u_z = K_x * τ_x + K_y * τ_y by shear tractions τ, and tangential displacement
+// u_t by the pressure p, −u_t = (K_x * p, K_y * p). One convolution with the kernels K_00 = K_x and
+// K_01 = K_10 = K_y serves both displacements.
 struct NormalTangentialCoupling::Parts {
   Grid2D grid;
   Convolution2D<double> kernels;
@@ -76,8 +77,8 @@ struct NormalTangentialCoupling::Parts {
           [this, constant, component](Index i, Index j) {
             const double qx = 2 * pi * static_cast<double>(i) / grid.lx;
             const double qy = 2 * pi * static_cast<double>(j) / grid.ly;
-            // A mode on a Nyquist line is its own mirror image, so that an odd symbol vanishes
-            // there.
+            // A Fourier mode at the Nyquist frequency of an axis is its own mirror image, so a
+            // symbol that is odd along this axis is 0 there.
             const bool own_mirror = component == 0 ? 2 * i == grid.nx : 2 * j == grid.ny;
             if (own_mirror || (i == 0 && j == 0)) return 0.0;
             return -2 * pi * constant * (component == 0 ? qx : qy) / (qx * qx + qy * qy);
@@ -97,7 +98,8 @@ struct NormalTangentialCoupling::Parts {
       parallel::for_slabs(nx, [&](Index begin, Index end) {
         for (Index a = begin; a < end; ++a)
           for (Index b = 0; b < ny; ++b) {
-            // Distances of half a period are never used, and must not make the kernel less odd.
+            // Values of the kernel at a distance of half a period are never used; with 0 there, the
+            // kernel stays odd.
             const Index i = 2 * a > nx ? a - nx : a, j = 2 * b > ny ? b - ny : b;
             const bool halfway = component == 0 ? 2 * a == nx : 2 * b == ny;
             kernel(a, b) = halfway ? 0

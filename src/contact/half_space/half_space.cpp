@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic half-space kernels, normal and tangential, as convolutions; stencil of their inverse.
+// Elastic half-space kernels, normal and tangential, as convolutions; stencil that approximates the
+// inverse of the normal kernel.
 #include "half_space.hpp"
 
 #include <algorithm>
@@ -25,12 +26,13 @@ namespace {
 
 using std::numbers::pi;
 
-// a asinh(b/|a|), continued to a = 0.
+// a asinh(b/|a|), which tends to 0 as a → 0.
 double corner_term(double a, double b) { return a == 0 ? 0 : a * std::asinh(b / std::abs(a)); }
 
-// Transform of a kernel that is given by its value at the distance of (a, b) cells, even or odd
-// along both axes, on the period of the zero-padded convolution. Each process has rows 0 …
-// period_x/2 of the transform along y, which is real or imaginary; columns are made of them.
+// Fourier transform of a kernel on the period of a convolution padded with zeros. The kernel is
+// given by its value at the distance of (a, b) cells, and is either even along both axes or odd
+// along both. Each process transforms some rows 0 … period_x/2 along y, which gives real or
+// imaginary numbers; columns are computed from these rows.
 class KernelTransform {
  public:
   KernelTransform(Index period_x, Index period_y, Parity parity, const Communicator& communicator,
@@ -44,8 +46,8 @@ class KernelTransform {
         Modes modes(static_cast<std::size_t>(along_y.modes_y()));
         for (Index row = begin; row < end; ++row) {
           const Index a = rows_.begin() + row;
-          // Only distances below half a period are ever used. At half a period an odd kernel must
-          // be its own negative.
+          // Only values at distances below half a period are used. At half a period an odd kernel
+          // must equal its own negative, hence 0.
           fill(line, period_y / 2 + 1, [&](Index b) {
             return odd_ && (2 * a == period_x || 2 * b == period_y) ? 0 : kernel(a, b);
           });
@@ -59,8 +61,9 @@ class KernelTransform {
     });
   }
 
-  // These are NormalSymbol::columns.
-  Field columns(const RowPartition& positions, const std::function<Index(Index position)>& column_at) const {
+  // Implements NormalSymbol::columns: computes any columns of the symbol.
+  Field columns(const RowPartition& positions,
+                const std::function<Index(Index position)>& column_at) const {
     RealFft2D<double> along_x(1, period_x_);
     Field symbol;
     collectively(positions.communicator(),
@@ -86,7 +89,8 @@ class KernelTransform {
  private:
   using Modes = std::vector<std::complex<double>>;
 
-  // A period of a line of which value(0) … value(count − 1) are given.
+  // Fills a line with one period of a sequence: elements 0 … count − 1 are value(0) … value(count −
+  // 1), and element period − k mirrors element k, with the sign reversed if the kernel is odd.
   template <class Value>
   void fill(std::vector<double>& line, Index count, const Value& value) const {
     const std::size_t period = line.size();
@@ -102,9 +106,9 @@ class KernelTransform {
   Field transformed_;
 };
 
-// Symbol in the columns of this process alone.
-std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel, const RowPartition& rows,
-                                              Index period_y) {
+// Returns the symbol of a kernel, valid only in the columns of this process.
+std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel,
+                                              const RowPartition& rows, Index period_y) {
   const RowPartition columns = detail::spectrum_columns(rows, period_y);
   const auto symbol =
       std::make_shared<Field>(kernel.columns(columns, [](Index position) { return position; }));
@@ -123,9 +127,10 @@ struct WaveVector {
 
 namespace {
 
-// The corners' terms grow with the distance r and their sum falls with it: a part (r/cell)² of
-// rounding, 1e-9 at 4096 cells. Far away the integrands are smooth over the cell, and nine Gauss
-// points leave 4e-4 (cell/r)⁶.
+// Distance, in cells, beyond which Gauss quadrature replaces the closed form. The closed form is a
+// sum of terms at the four corners of the cell. These terms grow with the distance r while their
+// sum falls, so the relative error is (r/cell)² times rounding, 1e-9 at 4096 cells. Far away the
+// integrands are smooth over the cell, and nine Gauss points have an error of 4e-4 (cell/r)⁶.
 constexpr double far_cells = 32;
 
 CellIntegrals far_cell_integrals(double x, double y, double dx, double dy) {
@@ -224,7 +229,7 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
   const double isotropic = material.cerruti_isotropic, directed = material.cerruti_directed;
   require(std::isfinite(isotropic) && std::isfinite(directed), "tangential_modulus",
           material.tangential_modulus,
-          "does not give Cerruti's constants; name the bodies or Poisson's ratio");
+          "does not determine Cerruti's constants; give the bodies or Poisson's ratio");
   const auto shape = shape_of<Real>(grid, boundary);
   const RowPartition rows(communicator, grid.nx);
   Convolution2D<Real> compliance(shape, 2, rows);
@@ -247,7 +252,8 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
         0, 1,
         [=](Index i, Index j) {
           const WaveVector q(grid, i, j);
-          // A mode on a Nyquist line is its own mirror image, so that an odd symbol vanishes there.
+          // A Fourier mode at the Nyquist frequency of x or y is its own mirror image, so an odd
+          // symbol is 0 there.
           if (2 * i == grid.nx || 2 * j == grid.ny || q.length == 0) return 0.0;
           return -2 * pi * directed * q.x * q.y / (q.length * q.length * q.length);
         },
@@ -286,16 +292,16 @@ template Convolution2D<double> tangential_compliance<double>(const Grid2D&, cons
                                                              Boundary, const Communicator&);
 
 double cell_compliance(const Grid2D& grid, double contact_modulus) {
-  // The mean of 2/(E*q) over the wave vectors that the grid has, |q_x| < π/dx, |q_y| < π/dy, as an
-  // integral.
+  // The displacement of a cell is the mean of 2/(E*q) over the wave vectors of the grid, |q_x| <
+  // π/dx and |q_y| < π/dy, as an integral.
   const double qx = pi / grid.dx(), qy = pi / grid.dy();
   const double integral = 4 * (corner_term(qx, qy) + corner_term(qy, qx));
   return 2 / contact_modulus * integral / (4 * qx * qy);
 }
 
 InverseStencil::InverseStencil(const Grid2D& grid) {
-  // |q|/2 sampled on a torus of 64 × 64 cells: far larger than the stencil, small enough to be
-  // free.
+  // The symbol |q|/2 is sampled on a periodic grid of 64 × 64 cells, which is far larger than the
+  // stencil and takes negligible time.
   constexpr int torus = 64;
   std::array<double, torus> cosine;
   for (int k = 0; k < torus; ++k)
@@ -321,8 +327,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   for (int i = -radius; i <= radius; ++i)
     for (int j = -radius; j <= radius; ++j)
       weights_[index(i, j)] = weights_[index(std::abs(i), std::abs(j))];
-  // Cutting may leave the transform negative somewhere (long cells): lift the centre until it is
-  // positive.
+  // If cells are long, the truncation to 7 × 7 weights may make the transform of the stencil
+  // negative somewhere; then the weight of the centre is raised until the transform is positive.
   double least = std::numeric_limits<double>::infinity();
   for (int a = 0; a <= torus / 2; ++a)
     for (int b = 0; b <= torus / 2; ++b) {
@@ -335,8 +341,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   if (least < wanted) weights_[index(0, 0)] += wanted - least;
 }
 
-void InverseStencil::apply(const RowPartition& rows, const Field& mask, const Field& r, Boundary boundary,
-                           Field& z) const {
+void InverseStencil::apply(const RowPartition& rows, const Field& mask, const Field& r,
+                           Boundary boundary, Field& z) const {
   static_assert(radius <= detail::halo);
   const Index nx = r.rows(), ny = r.cols();
   detail::HaloField<double> with_halo(nx, ny);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field with a halo around it, which repeats the opposite edge, holds rows of other processes,
-// or is zero.
+// A field with a halo around it. The halo repeats the opposite edge of the field, holds rows of
+// other processes, or is zero.
 #include "halo_field.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace salebra::detail {
 namespace {
 
-// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the halo of the last
-// row.
+// Numbers allocated behind the last row: vector loads of a tile, and of two tiles on the finer
+// grid, may end beyond the halo of the last row.
 constexpr Index slack = 4 * tile_width;
 
 }  // namespace

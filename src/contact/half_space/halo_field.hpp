@@ -10,30 +10,30 @@
 
 namespace salebra::detail {
 
-// The tiles of a row of ny cells.
+// Number of tiles in a row of ny cells.
 inline Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width; }
-// Appends the tiles of a row that are in use, one flag each.
+// Appends to `tiles` the tiles of a row that are in use; in_use has one flag for each tile.
 void append_tiles(const unsigned char* in_use, Index row, Index across, std::vector<Tile>& tiles);
 
-// A field (nx, ny) with a halo around it, so that a stencil needs no test for the edge: as many
-// rows as the widest stencil reaches and one more, for splines of the next coarser grid, and at
-// least a tile at both sides.
+// A field (nx, ny) with a halo around it, so that a stencil need not test for the edge. Above and
+// below, the halo is one row wider than the radius of the widest stencil, because interpolation
+// from the next coarser grid needs this row; at the left and right it is at least a tile wide.
 template <class Real>
 class HaloField {
  public:
   HaloField() = default;
-  HaloField(Index nx, Index ny);  // zero
+  HaloField(Index nx, Index ny);  // all zero
 
   explicit operator bool() const { return data_ != nullptr; }
   Index nx() const { return nx_; }
   Index ny() const { return ny_; }
   Index stride() const { return stride_; }
-  // The first cell of a row, −rows_around <= row < nx + rows_around.
+  // The first cell of a row, for −rows_around <= row < nx + rows_around.
   Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_halo; }
 
   void clear();
-  // Puts the cells of the opposite edge into the halo, where the field repeats, and the rows of
-  // other processes, where it is spread over several. Collective.
+  // Fills the halo: with the opposite edge if periodic, and with the rows of other processes if the
+  // field is distributed over several processes. Collective.
   void fill_halo(Boundary boundary, const RowExchange& halo_rows);
 
  private:
@@ -42,7 +42,8 @@ class HaloField {
   LargeArray<Real> data_;
 };
 
-// Returns the exchange that fills the halo of a field whose rows are shared so.
+// Returns the exchange between processes that fills the halo of a field with this distribution of
+// rows.
 RowExchange halo_rows(const RowPartition& rows, Boundary boundary);
 
 }  // namespace salebra::detail

@@ -55,7 +55,7 @@ Material Material::of_contact_modulus(double contact_modulus, double poisson) {
 Material Material::of_moduli(double contact_modulus, double tangential_modulus) {
   require_positive(contact_modulus, "contact_modulus");
   require_positive(tangential_modulus, "tangential_modulus");
-  // G*/E* = 2(1−ν)/(2−ν) solved for ν.
+  // Poisson's ratio ν from G*/E* = 2(1−ν)/(2−ν), for two bodies with equal ν.
   const double ratio = tangential_modulus / contact_modulus;
   const double poisson = 2 * (1 - ratio) / (2 - ratio);
   Material material;
@@ -81,8 +81,8 @@ std::optional<std::string> warning_of_pressure(double nominal_pressure, double c
   const double ratio = nominal_pressure / contact_modulus;
   if (!(ratio > max_strain)) return {};
   return fmt::format(
-      "a nominal pressure of {} is {} times E* = {}: linear elasticity holds far below E*; check "
-      "the units, a bare number is in Pa",
+      "a nominal pressure of {} is {} times E* = {}, but linear elasticity holds only far below "
+      "E*; check the units: a bare number is in Pa",
       format_quantity(nominal_pressure, Dimension::pressure),
       ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio),
       format_quantity(contact_modulus, Dimension::pressure));

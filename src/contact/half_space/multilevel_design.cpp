@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stencils of the multilevel kernel, fitted to a symbol, and the symbol that they leave for the
-// coarser grid.
+// Fits the stencils of the multilevel kernel to the symbol of the normal compliance, and computes
+// the symbol that each stencil leaves for the next coarser grid.
 #include "multilevel_design.hpp"
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 #include <salebra/base/parallel.hpp>
 #include <utility>
 
-#include "surface/dense_systems.hpp"
+#include "base/numerics/dense_systems.hpp"
 #include "tile.hpp"
 
 namespace salebra::detail {
@@ -24,7 +24,8 @@ using std::numbers::pi;
 constexpr Index design_period = 512;
 constexpr int widest_radius = 3, usual_radius = 2;
 constexpr int fitting_rounds = 20;
-// Frequencies along each axis that a fit looks at, and those at which its error is measured.
+// Numbers of frequencies along each axis: those that a fit uses, and those at which its error is
+// measured.
 constexpr Index fitted_frequencies = 8, measured_frequencies = 24;
 
 struct Sample {
@@ -35,13 +36,15 @@ Sample sample(const QuarterSymbol& symbol, Index i, Index j) {
   const std::size_t k = symbol.index(i, j);
   return {symbol.value[k], symbol.metric[k]};
 }
-// A constant has no displacement where the mean is the reference, and no error is measured by it.
+// If displacements count from their mean, a constant pressure causes no displacement: the symbol is
+// 0 at frequency 0, and this frequency does not count in the error.
 Sample sample(const NormalSymbol& symbol, Index i, Index j) {
   const double value = symbol.value(i, j);
   return {value, value != 0 ? 1 / std::abs(value) : 0};
 }
 
-// cos(kθ) and cos⁸(θ/2) at the frequencies of an axis.
+// cos(kθ) for k <= radius, and cos⁸(θ/2), the squared transform of the B-spline, at the frequencies
+// θ of an axis.
 struct AxisWaves {
   int radius;
   std::vector<double> cosine, spline;  // (period/2 + 1, radius + 1), (period/2 + 1)
@@ -56,7 +59,8 @@ struct AxisWaves {
   const double* at(Index i) const { return cosine.data() + i * (radius + 1); }
 };
 
-// T(θ) along a row of frequencies: factors of cos(jθ_y).
+// Coefficients of cos(jθ_y) in the transform T(θ_x, θ_y) of a stencil, for one frequency θ_x, whose
+// cosines are given.
 std::array<double, halo + 1> row_of(const MultilevelStencil& stencil, const double* cosine) {
   std::array<double, halo + 1> factors{};
   const int width = stencil.radius + 1;
@@ -68,11 +72,10 @@ std::array<double, halo + 1> row_of(const MultilevelStencil& stencil, const doub
   return factors;
 }
 
-// Two columns of a symbol for each one of the coarser grid, which look the same there: column k and
-// period_y/2 − k.
+// The columns k and period_y/2 − k of a symbol, which coincide as column k on the coarser grid.
 struct FoldedSymbol {
   Index period_x, period_y;
-  Index first;   // of this process's columns on the coarser grid
+  Index first;   // first column of this process on the coarser grid
   Field values;  // [column k, then period_y/2 − k][i]
 };
 Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
@@ -82,9 +85,10 @@ Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
   return {value, value != 0 ? 1 / std::abs(value) : 0};
 }
 
-// The columns of this process; those of the others are zero.
+// Computes the coarser symbol in the columns of this process; its other columns are zero.
 template <class Fine>
-QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil, const RowPartition& columns) {
+QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil,
+                        const RowPartition& columns) {
   QuarterSymbol coarse{fine.period_x / 2, fine.period_y / 2, {}, {}};
   const AxisWaves x(fine.period_x, stencil.radius), y(fine.period_y, stencil.radius);
   const Index rows = coarse.period_x / 2 + 1;
@@ -126,13 +130,14 @@ QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil) {
   return coarsened(fine, stencil, RowPartition(fine.period_y / 4 + 1));
 }
 
-// The four frequencies that look the same on the coarser grid: what a stencil changes there, with C
-// as good as it can be.
+// Four frequencies that coincide as one frequency of the coarser grid, and the error that a stencil
+// leaves at these frequencies with the best possible symbol C of the coarser grid.
 struct Aliases {
-  Eigen::Matrix<double, 4, Eigen::Dynamic> basis;  // of the weights, over W
+  Eigen::Matrix<double, 4, Eigen::Dynamic> basis;  // basis functions of the weights, divided by W
   Eigen::Vector4d wanted, square;                  // g/W, u²
-  // The norm of D is what is left once C has taken its part, as a quadratic form, in the Frobenius
-  // norm: at most twice the largest eigenvalue, and least where it is with the C of the header.
+  // Frobenius norm of the quadratic form that remains of the misfit `d` of the stencil, with the C
+  // of coarse_symbol(), which minimises this norm. The norm is at most twice the largest eigenvalue
+  // of the form.
   double norm(const Eigen::Vector4d& d) const {
     const double taken = square.dot(d) / square.sum();
     return std::sqrt(std::max(0.0, d.squaredNorm() - taken * taken));
@@ -218,19 +223,19 @@ MultilevelRung fitted_rung(const QuarterSymbol& fine, int radius) {
   return level;
 }
 
-// Rungs so far, and the symbol that they leave.
+// Levels of the kernel designed so far, and the symbol that remains for the next level.
 struct Design {
   std::vector<MultilevelRung> levels;
   QuarterSymbol left;
 };
 
 Design begun(double dx_over_dy, Boundary boundary) {
-  // A free grid's period is twice its size.
+  // The period of a grid with a free boundary is twice its size.
   const Index cells = boundary == Boundary::periodic ? design_period : design_period / 2;
   const auto length = static_cast<double>(cells);
   const double stretch = std::sqrt(dx_over_dy);
-  const NormalSymbol exact =
-      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary, RowPartition(cells));
+  const NormalSymbol exact = normal_symbol({cells, cells, length * stretch, length / stretch}, 1,
+                                           boundary, RowPartition(cells));
   QuarterSymbol symbol{exact.period_x, exact.period_y, {}, {}};
   for (Index i = 0; i <= symbol.period_x / 2; ++i)
     for (Index j = 0; j <= symbol.period_y / 2; ++j) {
@@ -271,16 +276,17 @@ QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& s
   QuarterSymbol coarse;
   if (fine.columns) {
     const Index half = fine.period_y / 2;
-    const FoldedSymbol folded{fine.period_x, fine.period_y, columns.begin(),
-                              fine.columns(RowPartition(communicator, begins), [half](Index position) {
-                                return position % 2 == 0 ? position / 2 : half - position / 2;
-                              })};
+    const FoldedSymbol folded{
+        fine.period_x, fine.period_y, columns.begin(),
+        fine.columns(RowPartition(communicator, begins), [half](Index position) {
+          return position % 2 == 0 ? position / 2 : half - position / 2;
+        })};
     coarse = coarsened(folded, stencil, columns);
   } else {
     coarse = coarsened(fine, stencil, columns);
   }
   if (communicator.alone()) return coarse;
-  // The columns of each process come together, one after the other.
+  // Gathers the columns of all processes into the whole symbol.
   const Index rows = coarse.period_x / 2 + 1;
   std::vector<std::size_t> bytes;
   for (int rank = 0; rank < communicator.size(); ++rank)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The multilevel kernel as an operator: its levels, their tiles, and one application.
+// The multilevel kernel as an operator: its levels, the tiles of each level, and its application to
+// a field.
 #include "multilevel_kernel.hpp"
 
 #include <algorithm>
@@ -10,29 +11,30 @@
 namespace salebra::detail {
 namespace {
 
-// The coarsest transform has at least this many points along its shorter side: a smaller one costs
-// no less than what surrounds it.
+// Minimum number of points along the shorter side of the transform on the coarsest level: a smaller
+// transform would hardly make the whole kernel cheaper.
 constexpr Index min_period = 128;
-// Stencils worse than this make more exact transforms necessary than they save.
+// Largest accepted error of the kernel: with a larger error, more additional exact transforms are
+// needed than the kernel saves.
 constexpr double acceptable_error = 0.2;
-// Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each
-// side.
+// Number of cells by which the splines of a coarser level reach beyond each edge of an isolated
+// patch.
 constexpr Index reach = 2;
 
 HaloView view(const HaloField<float>& field) { return {field.row(0), field.stride(), field.ny()}; }
 
-// The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and
-// from.
+// First and last of the coarse cells I with |2I − x| <= 2: the B-spline restricts cell x of the
+// finer grid to these cells and interpolates the value at x from them.
 Index first_reached(Index x) { return ((x + 1) >> 1) - 1; }
 Index last_reached(Index x) { return (x >> 1) + 1; }
 
-// A process that takes part in the coarsest transform has at least so many rows of it: fewer are
-// sooner transformed than sent.
+// Minimum rows of a process that takes part in the coarsest transform: for fewer rows, sending
+// takes longer than transforming.
 constexpr Index min_coarsest_rows = 64;
 
-// The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one,
-// or with the row behind that where a process begins between the two: kernels then count rows of
-// both levels from 0 on.
+// Distributes the nx rows of the next coarser level. Row I goes to the process that has row 2I −
+// shift of the finer level, or row 2I − shift + 1 if a process begins between the two rows; the
+// passes can then count the rows of both levels from 0 in each process.
 RowPartition coarser(const RowPartition& finer, Index nx, Index shift) {
   const int ranks = finer.communicator().size();
   std::vector<Index> begins{0};
@@ -43,7 +45,6 @@ RowPartition coarser(const RowPartition& finer, Index nx, Index shift) {
   return {finer.communicator(), std::move(begins)};
 }
 
-// Visits the tiles of a list, each for itself.
 template <class Body>
 void for_tiles_of(const std::vector<Tile>& tiles, const Body& body) {
   parallel::for_slabs(static_cast<Index>(tiles.size()), body,
@@ -74,7 +75,7 @@ std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D&
     ++depth;
   if (depth == 0) return std::nullopt;
   const double ratio = grid.dx() / grid.dy();
-  // Beyond 1:8 not even the fit is tried.
+  // Grids whose cells are longer than 1:8 are rejected without a fit.
   if (ratio > 8 || ratio < 1.0 / 8) return std::nullopt;
   Plan plan{boundary, grid.nx, grid.ny, {}, 0, {}};
   const double scale = std::sqrt(grid.cell_area()) / contact_modulus;
@@ -113,15 +114,15 @@ MultilevelKernel::MultilevelKernel(const Plan& plan, const RowPartition& rows)
   add_coarsest(nx, ny, plan.left);
 }
 
-// The next level below the last; nx, ny are the cells of that, and then of the new one.
+// Adds the next coarser level. nx, ny: number of cells of the last level on entry, of the new level
+// on return.
 void MultilevelKernel::add_level(Index& nx, Index& ny) {
   Shift shift = {0, 0};
   if (boundary_ == Boundary::periodic) {
     nx /= 2;
     ny /= 2;
   } else {
-    // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level
-    // does.
+    // Cell `reach` of every coarse level lies at cell 0 of the grid.
     const Index finer_reach = levels_.empty() ? 0 : reach;
     nx = (nx + 1) / 2 + 2 * reach;
     ny = (ny + 1) / 2 + 2 * reach;
@@ -137,12 +138,15 @@ void MultilevelKernel::add_level(Index& nx, Index& ny) {
   levels_.push_back(std::move(level));
 }
 
-// The transform of what the stencils leave, in whole blocks of rows.
+// Adds the coarsest level, a convolution with the symbol `left` that the stencils leave. Its rows
+// are distributed by whole blocks of 16.
 void MultilevelKernel::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
-  const RowPartition last = levels_.back().rows, whole_blocks(rows_.communicator(), nx, min_coarsest_rows);
+  const RowPartition last = levels_.back().rows,
+                     whole_blocks(rows_.communicator(), nx, min_coarsest_rows);
   const auto all_of = [](const RowPartition& partition) {
     return [partition](int rank) {
-      return RowExchange::Window{partition.begin_of(rank), partition.end_of(rank) - partition.begin_of(rank)};
+      return RowExchange::Window{partition.begin_of(rank),
+                                 partition.end_of(rank) - partition.begin_of(rank)};
     };
   };
   coarsest_rows_ = whole_blocks;
@@ -162,7 +166,8 @@ void MultilevelKernel::list_tiles(const std::vector<unsigned char>& in_use) {
   for (Level& level : levels_) {
     const Index ny = level.source.ny(), across = tiles_across(ny);
     const Index finer_across = tiles_across(finer_ny);
-    // The tiles of a coarse row that a tile of the finer grid reaches: the same for every row.
+    // The tiles of a coarse row that each tile of a finer row is restricted to; they are the same
+    // for every row.
     std::vector<std::vector<Index>> reached(static_cast<std::size_t>(finer_across));
     for (Index k = 0; k < finer_across; ++k) {
       const Index first = k * tile_width, last = std::min(first + tile_width, finer_ny) - 1;
@@ -173,7 +178,7 @@ void MultilevelKernel::list_tiles(const std::vector<unsigned char>& in_use) {
         if (std::find(tiles.begin(), tiles.end(), tile) == tiles.end()) tiles.push_back(tile);
       }
     }
-    // All rows of the finer grid that reach a row of this process.
+    // Rows of the finer grid that are restricted to the rows of process `rank`.
     const auto reaching = [&](int rank) {
       const Index begin = level.rows.begin_of(rank), end = level.rows.end_of(rank);
       if (begin == end) return RowExchange::Window{};

@@ -16,32 +16,35 @@
 
 namespace salebra::detail {
 
-// A stand-in G~ for the normal compliance G where fields live on few tiles of a grid:
+// Approximation G~ of the normal compliance G for fields on few tiles of a grid:
 //     G~ = T1 + P (T2 + P (… + P C Pᵀ …) Pᵀ) Pᵀ,
-// stencils T on the tiles in use, level below level, cubic B-splines P between them, and a
-// transform C on a grid 2^depth times coarser each way. (1 − eps) G <= G~ <= (1 + eps) G as
-// quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by eps/(1
-// − eps), whatever the grid, the load or the contact set (src/contact/README.md).
+// with a stencil T1, T2 and so on for each level, applied to the tiles in use of that level,
+// interpolation P by cubic B-splines from each level to the next finer one, and a convolution C on
+// a grid 2^depth times coarser along each axis. (1 − eps) G <= G~ <= (1 + eps) G as quadratic
+// forms, with eps <= error(): a solve with G~ that starts from an exact gap reduces the error of
+// the solution by the factor eps/(1 − eps), for any grid, load and contact set
+// (src/contact/README.md).
 //
-// In float. G~ is symmetric up to rounding, and its result has the same bits for every number of
-// threads and processes. One object may run in one thread at a time. Memory: 8/3 bytes for each
-// cell of the grid.
+// It computes in float. G~ is symmetric up to rounding, and its result has the same bits for every
+// number of threads and processes. One object may run in one thread at a time. Memory: 8/3 bytes
+// for each cell of the grid.
 //
-// Over several processes a row of a level belongs to the process of the row of the finer level that
-// it lies on. An application sends the halo of each level, and the rows of the coarsest.
+// With several processes, a row of a level belongs to the process that has the row of the finer
+// level at the same position. An application exchanges the halo of each level and the rows of the
+// coarsest level between processes.
 class MultilevelKernel {
  public:
-  // What the multilevel kernels of equal grids have in common.
+  // The part of the kernel that equal grids share.
   struct Plan {
     Boundary boundary = Boundary::periodic;
-    Index nx = 0, ny = 0;                     // of the grid
-    std::vector<MultilevelStencil> stencils;  // T1, T2, … in m/Pa
+    Index nx = 0, ny = 0;                     // cells of the grid
+    std::vector<MultilevelStencil> stencils;  // one for each level, T1 first, in m/Pa
     double error = 0;
-    QuarterSymbol left;  // C
+    QuarterSymbol left;  // symbol C of the coarsest level
 
-    // None where the grid is too small for it, or has no stencils that are good enough: cells
-    // longer than about 1:2, or a period that does not halve.
-    // rows: those of the grid that each process holds.
+    // Returns nothing if the grid is too small or no stencils are accurate enough: cells are longer
+    // than about 1:2, or a period cannot be halved.
+    // rows: the rows of the grid that each process has.
     static std::optional<Plan> make(const Grid2D& grid, const RowPartition& rows,
                                     const NormalSymbol& symbol, double contact_modulus,
                                     Boundary boundary);
@@ -58,14 +61,16 @@ class MultilevelKernel {
   int depth() const { return static_cast<int>(levels_.size()); }
   double error() const { return error_; }
 
-  // The tiles of the grid that hold the source and where the result is wanted: (rows of this
-  // process, tiles per row), 1 where a tile is in use. Collective.
+  // Sets the tiles of the grid that hold the source and on which the result is needed. in_use: one
+  // number for each tile of the rows of this process, row by row; 1 if the tile is in use.
+  // Collective.
   void list_tiles(const std::vector<unsigned char>& in_use);
 
-  // Everything that one application needs on the coarser levels. source: on the tiles in use, else
-  // zero; its halo is filled here. Collective.
+  // Computes everything on the coarser levels that an application to `source` needs. source: values
+  // on the tiles in use, zero elsewhere; its halo is filled by this call. Collective.
   void descend(HaloField<float>& source);
-  // G~x on tiles [begin, end) of one row, all in use, into its cells.
+  // Writes G~x for the source x of the last descend(), on the tiles [begin, end) of one row, all in
+  // use, into the cells of `row`.
   void collect(const Tile* tiles, Index begin, Index end, float* row) const;
 
  private:
@@ -76,9 +81,9 @@ class MultilevelKernel {
     RowPartition rows;
     RowExchange halo_rows;
     HaloField<float> source, image;
-    Shift shift = {0, 0};                // of its cells on the finer grid, of all processes
-    Shift local_shift = {0, 0};          // the same, rows counted from the first of this process
-    std::array<float, 25> stencil = {};  // T there; of the coarsest unused
+    Shift shift = {0, 0};                // of this level's cells on the finer grid
+    Shift local_shift = {0, 0};          // same, rows from the first of this process
+    std::array<float, 25> stencil = {};  // T of this level; unused on the coarsest
     std::vector<unsigned char> in_use;   // (nx, tiles per row)
     std::vector<Tile> tiles;
   };
@@ -87,19 +92,19 @@ class MultilevelKernel {
   void add_coarsest(Index nx, Index ny, const QuarterSymbol& left);
 
   Boundary boundary_ = Boundary::periodic;
-  RowPartition rows_;  // of the grid
+  RowPartition rows_;  // rows of the grid
   std::optional<RowExchange> halo_rows_;
   double error_ = 0;
   Index ny_ = 0;
   std::array<float, 49> stencil_ = {};  // T1
-  std::vector<Level> levels_;           // the coarsest last
-  // The transform of the coarsest, whose rows are shared by whole blocks, and their way there and
-  // back.
+  std::vector<Level> levels_;           // the coarsest is last
+  // Transform on the coarsest level. Its rows are distributed by whole blocks; two exchanges send
+  // them there and back.
   RowPartition coarsest_rows_;
   std::optional<Convolution2D<float>> coarsest_;
   std::optional<RowExchange> to_coarsest_, from_coarsest_;
   LargeArray<float> coarsest_field_;
-  HaloView source_ = {};  // of the last descend()
+  HaloView source_ = {};  // source of the last descend()
 };
 
 }  // namespace salebra::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Choice of the multilevel kernel's kernels for the processor at hand.
+// Chooses the passes of the multilevel kernel for this processor.
 #include "multilevel_passes.hpp"
 
 #include "base/vector_width.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included once for each instruction set, with SALEBRA_SIMD naming it.
+// Included once for each instruction set, which SALEBRA_SIMD names.
 #include "multilevel_passes.hpp"
 #include "stencil_loop.inl"
 
@@ -10,8 +10,8 @@ using Length = std::ptrdiff_t;
 typedef float Floats __attribute__((vector_size(register_bytes)));
 inline constexpr int lane_count = register_bytes / 4, registers_of_tile = tile_width / lane_count;
 
-// Tiles of a field with a halo to fetch ahead: rows of another tile are not predicted by the processor's
-// prefetcher.
+// Number of tiles to prefetch ahead in a field with a halo: the processor does not predict that the
+// next tile may lie in another row.
 inline constexpr Length tiles_ahead = 8;
 
 SALEBRA_INLINE const float* cell(const HaloView& field, Length row, Length column) {
@@ -24,7 +24,7 @@ SALEBRA_INLINE Floats load(const float* index) {
   return numbers;
 }
 
-// Stores the part of 16 numbers that lies within the row.
+// Stores at `index` those of 16 numbers that lie within the row, of which `width` cells remain.
 SALEBRA_INLINE void store(const float* numbers, Length width, float* index) {
   if (width >= tile_width) {
     __builtin_memcpy(index, numbers, tile_width * sizeof(float));
@@ -33,8 +33,8 @@ SALEBRA_INLINE void store(const float* numbers, Length width, float* index) {
   }
 }
 
-// 0, 1, … of a register, so that the places of a shuffle can be written as a formula; both
-// compilers ask for constants there.
+// The lane numbers 0, 1, 2 and so on of a register as template arguments: both compilers require
+// constants as the indices of a shuffle, and these can then be formulas of `lane`.
 template <int... lane>
 struct Each {};
 template <int count, int... lane>
@@ -45,13 +45,14 @@ struct Counted<0, lane...> {
 };
 using EachLane = Counted<lane_count>::Lanes;
 
-// Takes every second number of two registers one after the other.
+// Returns every second number of two successive registers, starting with number `first`.
 template <int first, int... lane>
 SALEBRA_INLINE Floats every_second(Floats low, Floats high, Each<lane...>) {
   return __builtin_shufflevector(low, high, (2 * lane + first)...);
 }
-// Takes the numbers of `every` from its number `first` on, where `every` holds every second number;
-// numbers parity and parity + 2 of what comes after follow.
+// Returns `every`, which holds every second number of a sequence, without its first `first`
+// numbers. The free lanes at the end are filled with the numbers at `parity`, parity + 2 and so on
+// of `after`, the next register of the sequence.
 template <int first, int parity, int... lane>
 SALEBRA_INLINE Floats onwards(Floats every, Floats after, Each<lane...>) {
   return __builtin_shufflevector(
@@ -59,7 +60,7 @@ SALEBRA_INLINE Floats onwards(Floats every, Floats after, Each<lane...>) {
       (lane + first < lane_count ? lane + first
                                  : lane_count + 2 * (lane + first - lane_count) + parity)...);
 }
-// Each number twice, from the one at `first` on.
+// Returns each number twice, starting with number `first`.
 template <int first, int... lane>
 SALEBRA_INLINE Floats twice(Floats numbers, Each<lane...>) {
   return __builtin_shufflevector(numbers, numbers, (lane / 2 + first)...);
@@ -92,8 +93,9 @@ void restriction(const Tile* tiles, Length begin, Length end, const HaloView& fi
   }
 }
 
-// 16 cells of P coarse. Cell 2m of the row takes ⅛, ¾, ⅛ of the coarse cells m − 1, m, m + 1, cell
-// 2m + 1 half of m and of m + 1.
+// Computes 16 cells of the interpolation P coarse. Along the row, cell 2m of the finer grid takes
+// ⅛, ¾ and ⅛ of the coarse cells m − 1, m and m + 1; cell 2m + 1 takes half of the coarse cell m
+// and half of m + 1.
 SALEBRA_INLINE void interpolated(const HaloView& coarse, const Shift& shift, const Tile& tile,
                                  float* result) {
   const Length x = tile.row + shift.x, y = tile.column + shift.y;
@@ -107,9 +109,8 @@ SALEBRA_INLINE void interpolated(const HaloView& coarse, const Shift& shift, con
   for (int k = 0; k < registers_of_tile; ++k) {
     const float* index = centre + k * (lane_count / 2);
     const Floats here = load(index), after = load(index + coarse.stride);
-    const Floats sum = x % 2 != 0
-                           ? 0.5f * (here + after)
-                           : 0.125f * (load(index - coarse.stride) + after) + 0.75f * here;
+    const Floats sum = x % 2 != 0 ? 0.5f * (here + after)
+                                  : 0.125f * (load(index - coarse.stride) + after) + 0.75f * here;
     const Floats numbers = before_weight * twice<0>(sum, EachLane{}) +
                            weight * twice<1>(sum, EachLane{}) +
                            after_weight * twice<2>(sum, EachLane{});
@@ -126,8 +127,7 @@ SALEBRA_INLINE void ascend(const Ascent& sum, const Tile& tile, float* result) {
   for (int k = 0; k < tile_width; ++k) result[k] = far[k] + near[k];
 }
 
-void ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
-            const HaloView& image) {
+void ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum, const HaloView& image) {
   for (Length t = begin; t < end; ++t) {
     float result[tile_width];
     ascend<2>(sum, tiles[t], result);
@@ -148,8 +148,8 @@ void last_ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
   }
 }
 
-// Most cells have neighbours in their row: 16 together. The sum of a cell has the same bits wherever
-// it is among them.
+// Most cells have neighbours in their row, so 16 cells are computed together. The sum of a cell has
+// the same bits at each position among the 16.
 void at_cells(const double* field, Length stride, const double* stencil, const Length* cells,
               Length begin, Length end, double* sums) {
   for (Length k = begin; k < end;) {

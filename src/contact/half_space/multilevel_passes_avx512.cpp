@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The multilevel kernel's kernels for x86-64-v4.
+// The passes of the multilevel kernel for x86-64-v4.
 #define SALEBRA_SIMD avx512
 #include "multilevel_passes.inl"

@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The multilevel kernel's kernels for any machine.
+// The passes of the multilevel kernel for any processor.
 #define SALEBRA_SIMD baseline
 #include "multilevel_passes.inl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What contacts on equal grids have in common, made once.
+// Operators that contacts on equal grids share, made once.
 #include "normal_operators.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double 
                                                      Boundary boundary, const RowPartition& rows) {
   constexpr Index max_points = 12'000'000;
   static std::mutex mutex;
-  static std::vector<std::shared_ptr<NormalOperators>> last;  // those of use lately come last
+  static std::vector<std::shared_ptr<NormalOperators>> last;  // most recently used: last
   const auto make = [&] {
     return std::make_shared<NormalOperators>(grid, contact_modulus, boundary, rows);
   };
@@ -40,8 +40,7 @@ std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double 
     std::rotate(found, found + 1, last.end());
   Index points = 0;
   auto first = last.end();
-  while (first != last.begin() && (points += (*(first - 1))->grid_.points()) <= max_points)
-    --first;
+  while (first != last.begin() && (points += (*(first - 1))->grid_.points()) <= max_points) --first;
   last.erase(last.begin(), first);
   return last.back();
 }

@@ -13,14 +13,17 @@
 
 namespace salebra::detail {
 
-// What the contacts on equal grids have in common: the symbol, transforms, the stencil of the
-// preconditioner and the multilevel kernel, each made when it is first needed. Any thread may ask.
+// Operators that contacts on equal grids share: symbol and transforms of the normal compliance, the
+// stencil of the preconditioner and the multilevel kernel. Each is made at first use. Any thread
+// may call the functions.
 class NormalOperators {
  public:
-  NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary, const RowPartition& rows);
-  // The same one for equal grids, where these are among the last ones of 12 million points in all,
-  // which takes 36 MB, and 90 MB of free contacts: the contacts of a sweep, and each with its
-  // stiffness. Of a grid that is spread over processes always a new one.
+  NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                  const RowPartition& rows);
+  // Returns the same object for equal grids while it is among the most recently used objects, whose
+  // grids have 12 million points in all (36 MB, or 90 MB for free contacts). The contacts of a
+  // sweep share it, and so do a contact and the computation of its stiffness. A grid whose rows are
+  // distributed over processes always gets a new object.
   static std::shared_ptr<NormalOperators> of(const Grid2D& grid, double contact_modulus,
                                              Boundary boundary, const RowPartition& rows);
 

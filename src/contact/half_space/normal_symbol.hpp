@@ -8,16 +8,19 @@
 
 namespace salebra::detail {
 
-// The transform of normal_compliance() and its period, which is the grid itself or, of a free
-// contact, the grid with empty cells. Of a free one it takes longer than the convolution that is
-// made of it: one in float and one in double share it.
+// The Fourier transform of the kernel of normal_compliance() and its period, which is the grid or,
+// for a free contact, the grid padded with empty cells. For a free contact the symbol takes longer
+// to compute than a convolution with it, so one convolution in float and one in double share it.
 struct NormalSymbol {
   Index period_x = 0, period_y = 0;
-  // A free contact has the columns of this process alone, those of a convolution of its rows.
+  // The symbol at frequency (i, j). For a free contact it covers only the columns that a
+  // convolution of this process's rows needs.
   Convolution2D<double>::Symbol value;
-  // Any columns of a free contact, collectively: (places.count(), period_x/2 + 1), column_at(place)
-  // for each place of this process. Empty for a periodic one, which has its value in every column.
-  std::function<Field(const RowPartition& indices, const std::function<Index(Index index)>& column_at)>
+  // Computes any columns of a free contact's symbol, collectively. Returns a field
+  // (indices.count(), period_x/2 + 1), whose row for each index of this process is the column
+  // column_at(index) of the symbol. Empty for a periodic contact, whose `value` covers all columns.
+  std::function<Field(const RowPartition& indices,
+                      const std::function<Index(Index index)>& column_at)>
       columns;
 };
 NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Periodic sum of Boussinesq displacements of point loads by Ewald splitting and gridding.
+// Periodic sum of the Boussinesq displacements of point loads by Ewald splitting and gridding.
 #include "periodic_point_loads.hpp"
 
 #include <algorithm>
@@ -14,13 +14,14 @@ namespace {
 
 using std::numbers::pi;
 
-// erfc(4.5) = 2e-10 is dropped beyond the cut-off, and as much of the spectrum erfc(q/2α) beyond q
-// = 9α.
+// Distance, in units of 1/α, at which the short-range part erfc(αr)/r is cut off, with Ewald's
+// parameter α. It drops erfc(4.5) = 2e-10, and as much of the spectrum erfc(q/2α) of the long-range
+// part beyond the wave number q = 9α.
 constexpr double short_reach = 4.5;
-constexpr double neighbours = 40;  // balances the pairs against the grid
-// The grid resolves waves `oversampling` times as short as the spectrum has. The window is `width`
-// nodes wide; what it aliases is worst where the spectrum has next to nothing left, so that sums
-// come out ten times as good as it is there.
+constexpr double neighbours = 40;  // per point; balances pairs and grid work
+// The grid resolves waves `oversampling` times shorter than the shortest waves of the spectrum. The
+// window that spreads a point load over the grid is `width` nodes wide. Its aliasing error is
+// largest where the spectrum has almost vanished, so sums are ten times as accurate as that error.
 constexpr double oversampling = 1.5;
 constexpr Index width = 10;
 const double window_exponent = 0.97 * pi * double(width) * (1 - 1 / (2 * oversampling));
@@ -34,14 +35,16 @@ double nearest_image(double difference, double period) {
   return difference - period * std::round(difference / period);
 }
 
-/// exp(β(√(1 − t²) − 1)), t = 2x/width for a distance of x nodes.
+/// Weight of a node at a distance of x nodes from a point load: exp(β(√(1 − t²) − 1)) with t =
+/// 2x/width and β = window_exponent.
 double window(double nodes) {
   const double t = 2 * nodes / double(width), rest = 1 - t * t;
   return rest > 0 ? std::exp(window_exponent * (std::sqrt(rest) - 1)) : 0;
 }
 
-/// ∫ window(x) cos(kx) dx, k in radians a node: the trapezoidal rule in t = sin θ, whose error is
-/// exp(−β) as the jump at the ends is.
+/// ∫ window(x) cos(kx) dx, k in radians per node, by the trapezoidal rule in θ, where sin θ =
+/// 2x/width. Its error is exp(−β) with β = window_exponent, like the jump of the window at its two
+/// ends.
 double window_transform(double k) {
   constexpr int panels = 64;
   double sum = 0;
@@ -72,7 +75,8 @@ PeriodicPointLoads::PeriodicPointLoads(std::vector<PlanePoint> points, double lx
   ny_ = nodes(ly);
   place_windows(points);
   set_symbol();
-  // erf(αr)/(πr) → 2α/π^{3/2} at the force's own place is not a displacement by other forces.
+  // At the position of a force itself erf(αr)/(πr) tends to 2α/π^{3/2}; this is no displacement by
+  // other forces, so it is subtracted.
   self_ = -2 * split_ / (pi * std::sqrt(pi));
   background_ = -2 / (std::sqrt(pi) * split_ * area);
 }
@@ -109,10 +113,12 @@ void PeriodicPointLoads::set_symbol() {
     for (Index j = 0; j < fft_->modes_y(); ++j) {
       if (i == 0 && j == 0) continue;  // the mean plane does not move
       const double qy = 2 * pi * double(j) / ly_, q = std::sqrt(qx * qx + qy * qy);
-      // Beyond, the spectrum is left out: the window must not magnify what it aliases there.
+      // The spectrum is cut off at this wave number: at larger ones, division by the transform of
+      // the window would magnify aliased waves.
       if (q > 2 * short_reach * split_) continue;
       const double spectrum = 2 / q * std::erfc(q / (2 * split_)) / (lx_ * ly_);
-      // Spreading and gathering each multiply by the transform of the window.
+      // Spreading the loads over the grid, and gathering the displacements from it, each multiply
+      // by the transform of the window.
       const double both = along_x[std::size_t(wave_x)] * along_y[std::size_t(j)];
       symbol_[static_cast<std::size_t>(i * fft_->modes_y() + j)] = spectrum / (both * both);
     }
@@ -120,8 +126,9 @@ void PeriodicPointLoads::set_symbol() {
 }
 
 void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, double cutoff) {
-  // Cells at least as wide as the cut-off: neighbours lie in the 3 × 3 cells around. Fewer than
-  // three cells a side would be visited twice.
+  // Cells at least as wide as the cut-off distance, so that the neighbours of a point lie in the 3
+  // × 3 cells around its cell. With fewer than three cells along a side, some cells would be
+  // visited twice.
   const auto cells = [&](double period) {
     return std::max<Index>(1, static_cast<Index>(std::floor(period / cutoff)));
   };
@@ -157,7 +164,7 @@ void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, doubl
           const double y = nearest_image(points[i].y - points[j].y, ly_);
           const double square = x * x + y * y;
           require(square > 0, "summits.position", points[i].x,
-                  "m along x is that of two summits at one place; remove one of them");
+                  "m along x belongs to two summits at the same point; remove one of them");
           if (square >= cutoff * cutoff) continue;
           const double r = std::sqrt(square);
           pairs_.push_back({static_cast<std::uint32_t>(i), j, std::erfc(split_ * r) / (pi * r)});
@@ -165,8 +172,9 @@ void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, doubl
   }
 }
 
-/// at_row(nodes, weight along x, weights along y, how many) for each run of nodes in a row under
-/// the window of a point.
+/// Calls at_row(nodes, weight along x, weights along y, count) for each row of nodes within the
+/// window of a point; the row is passed in parts that are contiguous in memory, of `count` nodes
+/// each.
 template <class AtRow>
 void PeriodicPointLoads::visit(std::size_t point, const AtRow& at_row) {
   const Window& window = windows_[point];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included once for each instruction set, with SALEBRA_SIMD naming it: a stencil applied to the 16
-// cells of a tile.
+// Applies a stencil to the 16 cells of a tile. Included once for each instruction set, which
+// SALEBRA_SIMD names.
 #include "tile.hpp"
 
 #ifndef SALEBRA_INLINE
@@ -9,8 +9,8 @@
 
 namespace salebra::detail::SALEBRA_SIMD {
 
-// A vector type wider than the registers compiles to code that is several times slower than no
-// vectors at all.
+// Bytes of a vector register. A vector type wider than the processor's registers compiles to code
+// that is several times slower than code without vectors.
 #if defined(__AVX512F__)
 inline constexpr int register_bytes = 64;
 #elif defined(__AVX__)
@@ -19,19 +19,19 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
-// Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a field with a halo. The
-// weights, (2 radius + 1)², are symmetric about both axes.
+// Computes Σ weight(i, j) x(a + i, b + j) over |i|, |j| <= radius for each of 16 cells (a, b) of a
+// field x with a halo. The (2 radius + 1)² weights are symmetric about both axes.
 #if defined(__AVX512F__)
-// Reads whole cache lines: rows above and below are added before they are weighted, and neighbours
-// in a row come from two registers by one permutation, which is cheaper than a load that crosses a
-// line.
+// Version for AVX-512. Reads whole cache lines: rows above and below are added before they are
+// weighted, and neighbours in a row are taken from two registers by one permutation, which is
+// cheaper than a load that crosses a cache line.
 template <class Real, int radius>
 struct StencilLoop {
   typedef Real Vector __attribute__((vector_size(register_bytes)));
   static constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
                        registers = tile_width / lanes;
 
-  // The numbers that begin `shift` places after the first of low, where high follows low.
+  // Returns consecutive numbers, starting with number `shift` of `low` and continuing in `high`.
   template <int shift>
   static SALEBRA_INLINE Vector shifted(Vector low, Vector high) {
     if constexpr (lanes == 16) {
@@ -79,7 +79,8 @@ struct StencilLoop {
   }
 };
 #else
-// In as many registers as 16 sums need, in two chains so that additions overlap.
+// Version for narrower registers. Uses as many registers as 16 sums need, in two chains so that
+// additions overlap in time.
 template <class Real, int radius>
 struct StencilLoop {
   static SALEBRA_INLINE void apply(const Real* centre, std::ptrdiff_t stride, const Real* weights,

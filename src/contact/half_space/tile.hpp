@@ -6,14 +6,14 @@
 
 namespace salebra::detail {
 
-// What the pointwise passes over a contact share. No inline functions here: sources for several
-// vector widths include it.
+// Constants and types of the pointwise passes over a contact. This header has no inline functions,
+// because sources for several vector widths include it.
 
 inline constexpr int tile_width = 16;
-inline constexpr int halo =
-    3;  // cells around a field with a halo: the radius of the widest stencil
-// The halo to the left and right is as wide as a tile, so that tiles of a field with a halo begin on
-// cache lines.
+// Width of a halo in cells: the radius of the widest stencil.
+inline constexpr int halo = 3;
+// The halo to the left and right is as wide as a tile, so that tiles of a field with a halo begin
+// on cache lines.
 inline constexpr int side_halo = tile_width;
 
 // A run of 16 cells of one row.

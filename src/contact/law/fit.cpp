@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits of F ∝ exp(−ū/l): weighted least squares, test of the law, window sensitivity, local l.
+// Fits of F ∝ exp(−ū/l) with mean gap ū and decay length l: weighted least squares, a test of the
+// law, sensitivity to the pressure window, local decay length.
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 struct Point {
   double mean_gap, pressure;
-  double weight = 1;  ///< their mean is 1
+  double weight = 1;  ///< the mean weight of all points is 1
 };
 
 std::vector<Point> usable_points(const ForceCurve& curve) {
@@ -45,8 +46,7 @@ std::vector<Point> points_in_window(const ForceCurve& curve,
       return point.mean_gap < curve.rms_height || point.mean_gap > 2.5 * curve.rms_height;
     });
   }
-  std::string constraint =
-      "points are too few, at least " + std::to_string(least) + " are needed; ";
+  std::string constraint = "points given, but at least " + std::to_string(least) + " are needed; ";
   constraint +=
       by_gap ? "give a pressure window or more samples with a mean gap of 1 to 2.5 rms heights"
              : "widen the window or compute more samples";
@@ -54,7 +54,7 @@ std::vector<Point> points_in_window(const ForceCurve& curve,
   return points;
 }
 
-/// Sets the weights, and sorts by gap.
+/// Sorts the points by mean gap and sets their weights.
 void weigh(std::vector<Point>& points, FitWeights weights) {
   std::ranges::sort(points, {}, &Point::mean_gap);
   require(points.front().mean_gap < points.back().mean_gap, "curve.mean_gap",
@@ -90,15 +90,16 @@ PressureWindow window_of(const std::vector<Point>& points) {
           .points = static_cast<int>(points.size())};
 }
 
-/// Weighted least squares y = mean_y + b u + c v with u = ū − mean and v = u² made orthogonal to 1
-/// and u in the weighted sums, so that no term disturbs the others and no large sums cancel. Each
-/// error is that of independent values of y with one variance s², whatever the weights: for a term
-/// φ of the orthogonal ones
+/// Weighted least squares y = mean_y + b u + c v for y = ln p, with weights w. u is the mean gap
+/// minus its weighted mean; v is u² made orthogonal to 1 and u in the weighted sums, so that the
+/// coefficients b and c do not disturb each other and no large sums cancel. The standard errors
+/// assume independent values of y with one variance s², whatever the weights. With residuals r, the
+/// coefficient of an orthogonal term φ (1, u or v) has the variance
 ///     Var = s² Σw²φ²/(Σwφ²)²,   s² = Σw r²/(Σw − Σ_φ Σw²φ²/Σwφ²),
-/// which for equal weights are the textbook's.
+/// which are the textbook formulas if all weights are equal.
 struct Regression {
   double mean_x = 0, mean_y = 0;
-  double square_u = 0, square_v = 0, square_y = 0;  ///< Σw u² and so on
+  double square_u = 0, square_v = 0, square_y = 0;  ///< Σw u², Σw v², Σw (y − mean_y)²
   double skew = 0;  ///< Σw u³/Σw u²: v = u² − skew·u − Σw u²/Σw
   double slope = 0, quadratic = 0;
   double slope_error = 0;      ///< standard error of b, with c = 0
@@ -180,12 +181,13 @@ ExponentialTest test_exponential(const ForceCurve& curve,
   weigh(points, weights);
   const Regression fit = regress(points);
   require(fit.square_v > 0, "curve.mean_gap", points.size(),
-          "points have only two different mean gaps; compute samples at different loads");
+          "points have only two different mean gaps; compute samples at more loads");
   const double freedom = static_cast<double>(points.size()) - 3;
   ExponentialTest test;
   test.quadratic = fit.quadratic;
   test.standard_error = fit.quadratic_error;
-  // Residuals at the round-off of ln p are a perfect fit and tell nothing about c.
+  // Residuals at the round-off of ln p mean a perfect fit, which says nothing about the curvature c
+  // of ln p over the gap.
   const double round_off = 1e-14 * std::sqrt(fit.square_y / fit.square_v);
   test.significance =
       std::abs(test.quadratic) <= round_off
@@ -201,14 +203,14 @@ ExponentialTest test_exponential(const ForceCurve& curve,
 }
 
 LawDescription describe_law(double decay_length, double at_min_gap, double at_max_gap) {
-  // Where the parabola turns, l has no local value: it is infinite or below 0, and the law is far
-  // off.
+  // Where the fitted parabola of ln p turns, the local decay length is infinite or negative and has
+  // no meaning: the law is far off.
   const auto off = [&](double local) {
     const double ratio = local / decay_length;
     return ratio > 0 ? ratio * ratio - 1 : std::numeric_limits<double>::infinity();
   };
   const auto within = [](double off) { return off > -0.5 && off < 1; };
-  LawDescription law{.law_off_at_min_gap = off(smallest gap), .law_off_at_max_gap = off(largest gap)};
+  LawDescription law{.law_off_at_min_gap = off(at_min_gap), .law_off_at_max_gap = off(at_max_gap)};
   law.fair = within(law.law_off_at_min_gap) && within(law.law_off_at_max_gap);
   return law;
 }
@@ -236,7 +238,7 @@ WindowSensitivity window_sensitivity(const ForceCurve& curve,
 LocalDecayLength local_decay_length(const ForceCurve& curve) {
   const std::vector<Point> points = usable_points(curve);
   require(points.size() >= 2, "curve", points.size(),
-          "usable samples (converged, p > 0, ū known) are too few; at least two are needed");
+          "usable samples (converged, p > 0, ū known) given; at least two are needed");
   LocalDecayLength local;
   for (std::size_t i = 1; i < points.size(); ++i) {
     local.mean_gap.push_back((points[i].mean_gap + points[i - 1].mean_gap) / 2);

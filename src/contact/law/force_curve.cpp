@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of a force curve.
+// Columns of a force curve: selection of one quantity from all samples.
 #include <algorithm>
 #include <salebra/contact/law/force_curve.hpp>
 

@@ -8,8 +8,8 @@
 #include <sstream>
 #include <vector>
 
+#include "base/numerics/hermite.hpp"
 #include "base/stop_check.hpp"
-#include "contact/hermite.hpp"
 
 namespace salebra {
 
@@ -38,7 +38,8 @@ std::vector<double> PowerLaw::break_points() const { return {0}; }
 PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
     : ContactLaw(modulus_ratio), coefficient_(coefficient), exponent_(exponent) {
   require_positive(coefficient, "coefficient");
-  // Below 1 the contact would soften under load, which no indenter does; 1 is the flat punch.
+  // An exponent below 1 would mean a contact that softens under load, which no indenter does; 1 is
+  // the flat punch.
   require(std::isfinite(exponent) && exponent >= 1, "exponent", exponent,
           "must be finite and >= 1");
 }
@@ -89,21 +90,23 @@ double ExponentialLaw::indentation_of(double force) const {
   return decay_length_ * std::log(force / reference_force_);
 }
 
-// With y = ln F: K = F y', F'' = F (y'² + y''). One interpolant gives all three, so that F' = K
-// exactly and the by-parts forms of the damping, which need F or K_t alone, agree with each other.
-// y and not F is interpolated because it is nearly straight for a rough surface, however many
-// decades of force lie between two nodes. Where every sample has its own K, the slopes y' = K/F at
-// the nodes are data and not differences of data; both ways F, K and F'' are of order 4, 3 and 2 in
-// the node spacing, with constants that are several times less when K is known. F'' jumps at the
-// nodes. K_t, where it is given, is an independent measurement: ln K_t gets an interpolant of its
-// own, K_t' is its derivative.
+// With y = ln F as a function of the indentation, K = F y' and F'' = F (y'² + y''). One interpolant
+// of y gives F, K and F'', so F' = K exactly, and formulas of the damping that integration by parts
+// has changed to need only F or K_t agree with the formulas before this change. y is interpolated
+// instead of F, because y is nearly straight for a rough surface, however many decades of force lie
+// between two nodes. If every sample has its own K, the slopes y' = K/F at the nodes are data
+// instead of differences of data. With or without these slopes, the errors of F, K and F'' are of
+// order 4, 3 and 2 in the node spacing, and several times smaller with them. F'' jumps at the
+// nodes. K_t, if given, is an independent measurement: ln K_t has an interpolant of its own, whose
+// derivative gives K_t'.
 struct TabulatedLaw::Splines {
   detail::MonotoneHermite log_force;
   std::unique_ptr<const detail::MonotoneHermite> log_tangential_stiffness;  // null: (G*/E*)K
 
   double clamp(double indentation) const {
     detail::stop_if_asked();
-    // Round-off in δ0 ± u_z must not turn a sweep over the whole table into an error.
+    // Round-off in an indentation at the end of an oscillation must not turn a sweep over the whole
+    // table into an error.
     const double low = log_force.front(), high = log_force.back(), slack = 1e-12 * (high - low);
     if (!(indentation >= low - slack && indentation <= high + slack)) {
       std::ostringstream constraint;
@@ -124,9 +127,9 @@ struct Column {
 
 std::vector<Column> usable_samples(const ForceCurve& curve) {
   require_that(!curve.adhesive, "curve",
-               "is of contacts with adhesion, whose loading and unloading may differ: points are "
-               "released in another order than they were pressed, and the loss is not that of a "
-               "law; press without adhesion");
+               "belongs to contacts with adhesion, whose loading and unloading may differ: points "
+               "separate in another order than they touched, so the loss does not follow from a "
+               "law; compute the curve without adhesion");
   auto force_of = [&](const ForceSample& sample) {
     return std::isnan(sample.force) ? sample.pressure * curve.nominal_area : sample.force;
   };
@@ -142,9 +145,9 @@ std::vector<Column> usable_samples(const ForceCurve& curve) {
       columns.push_back(
           {indentation, force_of(*sample), sample->normal_stiffness, sample->tangential_stiffness});
   }
-  require(columns.size() >= 4, "curve", columns.size(),
-          "usable samples (converged, F > 0, δ or ū known) are too few; a tabulated law needs at "
-          "least four");
+  require(
+      columns.size() >= 4, "curve", columns.size(),
+      "usable samples (converged, F > 0, δ or ū known) given; a tabulated law needs at least four");
   std::ranges::sort(columns, {}, &Column::indentation);
   for (std::size_t i = 1; i < columns.size(); ++i) {
     require(columns[i].indentation > columns[i - 1].indentation, "curve.indentation",
@@ -227,7 +230,7 @@ double TabulatedLaw::indentation_of(double force) const {
   const double log_force = std::log(force);
   const double low = splines_->log_force.at(lowest_indentation()).value;
   const double high = splines_->log_force.at(highest_indentation()).value;
-  // Round-off has the allowance that clamp() gives it.
+  // The same allowance for round-off as for indentations in clamp().
   const double slack = 1e-12 * (high - low);
   if (!(log_force >= low - slack && log_force <= high + slack)) {
     std::ostringstream constraint;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// JKR, DMT and Maugis and Dugdale's adhesion of axisymmetric indenters.
+// Adhesion of axisymmetric indenters after JKR, DMT, and Maugis and Dugdale.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,12 +19,12 @@ void require_adhesive(double contact_modulus, double work) {
   require_positive(work, "work");
 }
 
-/// By how much adhesion lowers the indentation of a contact, √(2πwa/E*).
+/// Decrease of the indentation by adhesion, √(2πwa/E*), at contact radius a and work of adhesion w.
 double drawn_in(double contact_modulus, double work, double contact_radius) {
   return std::sqrt(2 * pi * work * contact_radius / contact_modulus);
 }
 
-/// The root of a function that rises through 0 between low and high, to the last bits.
+/// The root, to the last bits, of a function that rises through 0 between low and high.
 template <class Function>
 double rising_root(double low, double high, const Function& function) {
   for (int step = 0; step < 200; ++step) {
@@ -51,20 +51,22 @@ AdhesivePoint jkr_contact(const IndenterProfile& profile, double contact_modulus
 
 AdhesivePoint jkr_pull_off(const IndenterProfile& profile, double contact_modulus, double work) {
   require_adhesive(contact_modulus, work);
-  // dF/da = 2E*[a g'(a) − (3/2)√(2πwa/E*)], below 0 near a = 0 and the flat end.
+  // With the image g of the profile, contact radius a and work of adhesion w, dF/da = 2E*[a g'(a) −
+  // (3/2)√(2πwa/E*)]. It is negative near a = 0 and at the rim of a flat end.
   const auto slope = [&](double a) {
     return a * profile.image_slope(a) - 1.5 * drawn_in(contact_modulus, work, a);
   };
   const double first = std::max(profile.flat_radius(), std::numeric_limits<double>::min() * 1e10);
   const double last = profile.max_radius();
-  // Where g' grows beyond all bounds or slowly, the least force is many decades away.
+  // If the profile reaches any radius, g' may grow so slowly that the minimum of the force lies
+  // many decades away.
   double high = std::isfinite(last) ? last : std::max(first, 1e-12);
   if (!std::isfinite(last))
     while (high < 1e12 && !(slope(high) > 0)) high *= 2;
   if (!(slope(high) > 0)) {
-    // Along the side of a punch the radius stays while the force rises to 0.
+    // On the side of a punch, the radius stays constant while the force rises to 0.
     if (profile.has_side()) return jkr_contact(profile, contact_modulus, work, last);
-    throw NotConverged("pull-off: the contact is held up to the largest radius of the profile");
+    throw NotConverged("pull-off: the contact still adheres at the largest radius of the profile");
   }
   double low = high;
   while (low > first && slope(low) > 0) low = std::max(first, low / 2);
@@ -94,17 +96,18 @@ MaugisDugdale::MaugisDugdale(double radius, double contact_modulus, double work,
 
 AdhesivePoint MaugisDugdale::contact(double contact_radius) const {
   require(contact_radius >= 0, "contact_radius", contact_radius, "must be >= 0");
-  // In terms of the width A√(m² − 1) of the zone, which stays finite for A = 0.
+  // With the contact radius A (in units of length_) and the ratio m of the outer to the inner
+  // radius of the adhesive zone, the unknown is the width A√(m² − 1), which stays finite for A = 0.
   const double a = contact_radius / length_;
   struct Zone {
-    double edge, angle;  // c, arcsec m = atan √(m² − 1)
+    double edge, angle;  // outer radius c = A m; arcsec m = atan √(m² − 1)
   };
   const auto zone_of = [&](double width) {
     return Zone{std::hypot(a, width), std::atan2(width, a)};
   };
   const double width = rising_root(0, 2 / std::sqrt(lambda_) + 2 / lambda_ + 4, [&](double w) {
     const auto [edge, angle] = zone_of(w);
-    // c − a without cancelling.
+    // The width c − A of the adhesive zone, without cancellation.
     const double beyond = w * w / (edge + a);
     return lambda_ / 2 * (a * w + (edge * edge - 2 * a * a) * angle) +
            4 * lambda_ * lambda_ / 3 * (w * angle - beyond) - 1;
@@ -116,7 +119,8 @@ AdhesivePoint MaugisDugdale::contact(double contact_radius) const {
 }
 
 AdhesivePoint MaugisDugdale::pull_off() const {
-  // JKR comes off at A = (3/2)^(1/3), DMT at 0; the force has one minimum over 0 … 2.
+  // In units of length_, a JKR contact comes off at the radius (3/2)^(1/3), a DMT contact at 0; the
+  // force has a single minimum over the radii 0 … 2.
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double low = 0, high = 2 * length_;
   const auto force = [&](double a) { return contact(a).force; };
@@ -144,7 +148,7 @@ AdhesivePoint adhesive_equilibrium(const std::function<AdhesivePoint(double)>& c
                                    double value) {
   const char* name = quantity == &AdhesivePoint::force ? "normal_force" : "indentation";
   require(value >= pull_off.*quantity, name, value,
-          fmt::format("is less than at the pull-off, {}", pull_off.*quantity));
+          fmt::format("is below the value at pull-off, {}", pull_off.*quantity));
   const double low = pull_off.contact_radius;
   double high = std::max(2 * low, 1e-12);
   while (contact(high).*quantity < value) high *= 2;

@@ -7,9 +7,9 @@
 #include <salebra/contact/mdr/mdr.hpp>
 #include <sstream>
 
+#include "base/numerics/quadrature.hpp"
 #include "base/special_values.hpp"
 #include "base/stop_check.hpp"
-#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {
@@ -18,7 +18,7 @@ using std::numbers::pi;
 
 using detail::infinity;
 
-// [low, f(breaks within), high] for increasing f.
+// Returns low, f(b) for those break points b with low < f(b) < high, and high, for increasing f.
 template <class Function>
 std::vector<double> with_breaks(double low, double high, std::span<const double> breaks,
                                 const Function& f) {
@@ -58,7 +58,7 @@ Estimate mdr_inverse(const std::function<double(double)>& image, double r,
 Estimate line_load_stress(const std::function<double(double)>& slope, double edge_value,
                           double edge, double r, std::span<const double> breaks) {
   if (!(r < edge)) return {};
-  // x² = r² + s²: dx/√(x² − r²) = ds/x.
+  // Integrates over s with x² = r² + s², because dx/√(x² − r²) = ds/x is not singular.
   const double reach = std::sqrt((edge - r) * (edge + r));
   const auto points = with_breaks(
       0, reach, breaks, [&](double x) { return x > r ? std::sqrt((x - r) * (x + r)) : -infinity; });
@@ -91,7 +91,7 @@ IndenterLaw::IndenterLaw(std::shared_ptr<const IndenterProfile> profile, const M
     : ContactLaw(material.modulus_ratio()),
       profile_(std::move(profile)),
       contact_modulus_(material.contact_modulus) {
-  if (!profile_) throw InvalidInput("profile", "none given; choose a shape or a table");
+  if (!profile_) throw InvalidInput("profile", "not given; choose a shape or a table");
 }
 
 double IndenterLaw::contact_radius(double indentation) const {
@@ -133,7 +133,8 @@ std::vector<double> IndenterLaw::break_points() const {
 double IndenterLaw::indentation_of(double wanted) const {
   require_positive(wanted, "force");
   const double highest = highest_indentation();
-  // F <= 2E*aδ and F >= E*aδ for profiles that rise at least in proportion: bracket by doubling.
+  // With contact radius a, F <= 2E*aδ always and F >= E*aδ for profiles that rise at least in
+  // proportion to r, so a few multiplications by 4 find an interval that contains the root.
   double high = std::isfinite(highest) ? highest : 1e-9;
   if (std::isfinite(highest) && force(highest) < wanted) {
     std::ostringstream constraint;
@@ -166,7 +167,7 @@ double IndenterLaw::surface_displacement(double indentation, double r) const {
   if (!(indentation > 0)) return 0;
   const double edge = contact_radius(indentation);
   if (r <= edge) return indentation - profile_->height(r);
-  // x = r sin φ takes the singularity at the edge away.
+  // The substitution x = r sin φ removes the singularity of the integrand at x = r.
   std::vector<double> angles = {0};
   for (const double at : profile_->breaks())
     if (at > 0 && at < edge) angles.push_back(std::asin(at / r));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Indenter profiles with closed-form images: cone, paraboloid, power, sphere, flat, rounded punch.
+// Indenter profiles whose images have a closed form: cone, paraboloid, power, sphere, flat, rounded
+// punch.
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -38,7 +39,8 @@ class SphereProfile final : public IndenterProfile {
  public:
   explicit SphereProfile(double radius) : radius_(radius) {}
   double height(double r) const override {
-    // r²/(R + √(R² − r²)): the difference R − √… loses all digits of a shallow contact.
+    // R − √(R² − r²) as r²/(R + √(R² − r²)): the difference would lose all digits for a shallow
+    // contact.
     return r * r / (radius_ + std::sqrt((radius_ - r) * (radius_ + r)));
   }
   double image(double x) const override { return x * std::atanh(x / radius_); }
@@ -49,12 +51,14 @@ class SphereProfile final : public IndenterProfile {
   double image_integral(double x) const override {
     const double u = x / radius_;
     if (u > 0.3) return 0.5 * radius_ * radius_ * (u - (1 - u) * (1 + u) * std::atanh(u));
-    // R² Σ u^{2n+1}/((2n − 1)(2n + 1)): what is left of the closed form is of third order.
+    // For u = x/R <= 0.3 the series R² Σ_{n>=1} u^{2n+1}/((2n − 1)(2n + 1)): in the closed form all
+    // terms below third order cancel.
     double sum = 0, power = u * u * u;
     for (int n = 1; n < 20; ++n, power *= u * u) sum += power / ((2 * n - 1) * (2 * n + 1));
     return radius_ * radius_ * sum;
   }
-  // g is infinite at the equator; what a half-space is there means nothing anyway.
+  // The image g is infinite at the equator r = R, where the half-space theory does not apply
+  // anyway.
   double max_radius() const override { return 0.999999 * radius_; }
 
  private:
@@ -84,8 +88,8 @@ class RoundedPunchProfile final : public IndenterProfile {
   double height(double r) const override {
     return r > flat_ ? (r - flat_) * (r - flat_) / (2 * edge_) : 0;
   }
-  // With t = √(x² − b²)/b: g = (b x/R)(t − arctan t), g' = (b/R)(2t − arctan t) and ∫g =
-  // (b³/R)[t³/3 + t/2 − (1 + t²)arctan(t)/2].
+  // Flat radius b, edge radius R. With t = √(x² − b²)/b the image is g = (b x/R)(t − arctan t), its
+  // slope g' = (b/R)(2t − arctan t), and ∫g = (b³/R)[t³/3 + t/2 − (1 + t²)arctan(t)/2].
   double image(double x) const override {
     const double t = reduced(x);
     return flat_ * x / edge_ * (t > 0.3 ? t - std::atan(t) : arctan_series(t, 0));
@@ -106,8 +110,9 @@ class RoundedPunchProfile final : public IndenterProfile {
   double reduced(double x) const {
     return x > flat_ ? std::sqrt((x - flat_) * (x + flat_)) / flat_ : 0;
   }
+  // Series for small t, where the closed forms cancel.
   // order 0: t − arctan t = Σ_{n>=1} (−1)^{n+1} t^{2n+1}/(2n + 1);
-  // order 1: the bracket of ∫g = Σ_{n>=2} (−1)ⁿ t^{2n+1}/((2n − 1)(2n + 1)).
+  // order 1: the bracket of ∫g above = Σ_{n>=2} (−1)ⁿ t^{2n+1}/((2n − 1)(2n + 1)).
   static double arctan_series(double t, int order) {
     double sum = 0, power = order == 0 ? t * t * t : std::pow(t, 5);
     double sign = 1;

@@ -9,19 +9,20 @@
 #include <salebra/contact/mdr/mdr.hpp>
 #include <sstream>
 
-#include "contact/hermite.hpp"
+#include "base/numerics/hermite.hpp"
 
 namespace salebra {
 namespace {
 
-// Gauss's rule with eight points: the half above the middle.
+// Gauss's quadrature rule with eight points, for the interval [−1, 1]: the positive nodes and their
+// weights.
 constexpr std::array<double, 4> gauss_node{0.1834346424956498, 0.5255324099163290,
                                            0.7966664774136267, 0.9602898564975363};
 constexpr std::array<double, 4> gauss_weight{0.3626837833783620, 0.3137066458778873,
                                              0.2223810344533745, 0.1012285362903763};
 
-// The image g(x) = x ∫_0^x f'(r)/√(x² − r²) dr of a profile of cubic pieces, with its slope and its
-// integral.
+// The image g(x) = x ∫_0^x f'(r)/√(x² − r²) dr of a profile f(r) that is made of cubic pieces, the
+// slope g'(x) and the integral ∫_0^x g.
 class Image {
  public:
   struct Point {
@@ -44,7 +45,7 @@ class Image {
   const detail::MonotoneHermite& profile() const { return f_; }
 
   Point at(double x) const {
-    // On a piece of half width h whose middle is 4h or more from the singularity at x, Gauss's
+    // On a piece of half width h whose middle is 4h or more from the singularity r = x, Gauss's
     // points are exact to 64/15 (4 + √15)^{−16} = 2e-14 (Trefethen, Approximation Theory and
     // Approximation Practice, theorem 19.3), and their radii do not depend on x.
     const std::size_t far = static_cast<std::size_t>(
@@ -57,7 +58,8 @@ class Image {
       slope += node.image_slope / root;
       integral += node.slope * root;
     }
-    // Nearer ones over φ with r = x sinφ, in which f' is smooth up to x itself.
+    // Pieces nearer to r = x are integrated over the angle φ with r = x sinφ, in which f' is smooth
+    // up to r = x.
     const std::vector<double>& radii = f_.nodes();
     double from = std::asin(std::min(radii[far] / x, 1.0));
     for (std::size_t i = far; i + 1 < radii.size() && from < std::numbers::pi / 2; ++i) {
@@ -76,7 +78,7 @@ class Image {
 
  private:
   struct Node {
-    double r, slope, image_slope;  // and, times their weights, f' and f' + r f''
+    double r, slope, image_slope;  // r; f' and f' + r f'' times weight
   };
   template <class Visit>
   static void for_each_node(double half, double middle, const Visit& visit) {
@@ -87,14 +89,15 @@ class Image {
 
   detail::MonotoneHermite f_;
   std::vector<Node> nodes_;
-  std::vector<double> clear_;  // where this piece and those below it are far
+  std::vector<double> clear_;  // the minimum x from which this piece and all pieces below count as
+                               // far
 };
 
 }  // namespace
 
 struct TabulatedProfile::Table {
   Image image, of_every_other;
-  std::vector<double> images;  // g at the radii
+  std::vector<double> images;  // image g at the radii of the table
   double flat_radius = 0;
 
   const detail::MonotoneHermite& profile() const { return image.profile(); }
@@ -109,11 +112,10 @@ struct TabulatedProfile::Table {
 TabulatedProfile::TabulatedProfile(std::vector<double> radii, std::vector<double> heights) {
   constexpr std::size_t fewest = 7;
   require(radii.size() == heights.size(), "profile", radii.size(),
-          "radii must come with as many heights");
-  require(radii.size() >= fewest, "profile", radii.size(),
-          "points are too few; give at least seven");
+          "radii need the same number of heights");
+  require(radii.size() >= fewest, "profile", radii.size(), "points given; give at least seven");
   require(radii.front() == 0, "profile", radii.front(),
-          "m is the first radius, but the profile must begin on the axis, at 0");
+          "m is the first radius; the profile must begin on the axis, at 0");
   const double tip = heights.front();
   double flat_radius = 0;
   for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -123,14 +125,13 @@ TabulatedProfile::TabulatedProfile(std::vector<double> radii, std::vector<double
     if (i == 0) continue;
     require(radii[i] > radii[i - 1], "profile", i + 1,
             "is a row whose radius is not larger than the one before; sort the rows");
-    require(
-        heights[i] >= heights[i - 1], "profile", i + 1,
-        "is a row whose height is below the one before: the contact would not be a disc; smooth "
-        "the profile or cut it there");
+    require(heights[i] >= heights[i - 1], "profile", i + 1,
+            "is a row whose height is below the one before, so that the contact would not be a "
+            "disc; smooth the profile or cut it there");
     if (heights[i] == 0) flat_radius = radii[i];
   }
   require(heights.back() > 0, "profile", heights.back(),
-          "m is the whole rise; use a flat punch instead");
+          "m is the rise of the whole profile; use a flat punch instead");
   std::vector<double> fewer_radii, fewer_heights;
   for (std::size_t i = 0; i < radii.size(); i += 2) {
     fewer_radii.push_back(radii[i]);
@@ -151,10 +152,9 @@ TabulatedProfile::TabulatedProfile(std::vector<double> radii, std::vector<double
   for (const double radius : radii) {
     if (radius < 0.25 * radii.back()) continue;
     const double error = image_error(radius);
-    require(
-        error < 0.2, "profile", error,
-        "is the relative change of its image g(x) when every other point is left out; sample it "
-        "more finely");
+    require(error < 0.2, "profile", error,
+            "is the relative change of the image g(x) when every other point is left out; give "
+            "more points");
   }
 }
 
@@ -170,13 +170,15 @@ double TabulatedProfile::image(double x) const {
   return x > 0 ? table_->image.at(x).value : 0;
 }
 
-// g' = ∫ (f' + r f'') dφ.
+// The slope of the image, g'(x) = ∫ (f' + r f'') dφ over 0 … π/2, with the profile f at r = x sin
+// φ.
 double TabulatedProfile::image_slope(double x) const {
   table_->require_known(x);
   return x > 0 ? table_->image.at(x).slope : std::numbers::pi / 2 * table_->profile().at(0).slope;
 }
 
-// ∫_0^x g = ∫_0^x f'(r) √(x² − r²) dr, by exchange of the integrals.
+// The integral of the image, ∫_0^x g = ∫_0^x f'(r) √(x² − r²) dr, by exchanging the order of the
+// two integrals.
 double TabulatedProfile::image_integral(double x) const {
   table_->require_known(x);
   return x > 0 ? table_->image.at(x).integral : 0;
@@ -198,7 +200,8 @@ double TabulatedProfile::contact_radius(double indentation) const {
   const auto above = std::upper_bound(images.begin(), images.end(), indentation);
   const std::size_t i = static_cast<std::size_t>(above - images.begin());
   const std::vector<double>& radii = table_->profile().nodes();
-  // Newton, held in the bracket by bisection: the slope vanishes where a flat end begins.
+  // Newton's method, kept in the bracket by bisection: the slope of the image is 0 where a flat end
+  // begins.
   double low = radii[i - 1], high = radii[i];
   double x = low + (high - low) * (indentation - images[i - 1]) / (images[i] - images[i - 1]);
   for (int step = 0; step < 200; ++step) {

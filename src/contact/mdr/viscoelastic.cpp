@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prony series, the springs of a viscoelastic foundation, and the normal contact along a path.
+// Prony series, the springs of a viscoelastic foundation, and normal contact along a path.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "base/numerics/dense_systems.hpp"
 #include "base/stop_check.hpp"
-#include "surface/dense_systems.hpp"
 #include "viscoelastic_spring.hpp"
 
 namespace salebra {
@@ -25,7 +25,9 @@ MaxwellSpring::MaxwellSpring(const PronySeries& prony) {
     time_[i] = term.relaxation_time;
   }
   unrelaxed_ = 1 + ratio_.sum();
-  // With q = 0: w' = Σ r_i y_i/τ_i / (1 + Σ r), y_i' = w' − y_i/τ_i; symmetric in √(r_i/τ_i) y_i.
+  // A spring without force: w is its displacement, y_i the stretch of Maxwell branch i, r_i its
+  // stiffness ratio and τ_i its relaxation time. Then w' = Σ r_i y_i/τ_i / (1 + Σ r_i) and y_i' =
+  // w' − y_i/τ_i, a system with a symmetric matrix in the variables √(r_i/τ_i) y_i.
   const Eigen::VectorXd scale = (ratio_ / time_).sqrt();
   const Eigen::MatrixXd rates = Eigen::MatrixXd(time_.inverse().matrix().asDiagonal()) -
                                 scale * scale.transpose() / unrelaxed_;
@@ -47,7 +49,8 @@ Stretching MaxwellSpring::stretching(double duration) const {
     const double a = duration / time_[i];
     step.decay[i] = std::exp(-a);
     step.gain[i] = a > 0 ? -std::expm1(-a) / a : 1;
-    // (1 − gain)/a, by its series where that cancels: the next term is a⁴/720.
+    // (1 − gain)/a, for small a by its series in a, because the difference cancels; the first
+    // omitted term is a⁴/720.
     step.mean_gain[i] =
         a > 1e-3 ? (1 - step.gain[i]) / a : 0.5 - a * (1.0 / 6 - a * (1.0 / 24 - a / 120));
   }
@@ -112,7 +115,7 @@ void PronySeries::validate() const {
 ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const PronySeries& prony,
                                                  std::span<const double> time,
                                                  std::span<const double> indentation, int springs) {
-  require(time.size() >= 2, "time", time.size(), "samples are too few; give at least 2");
+  require(time.size() >= 2, "time", time.size(), "samples given; give at least 2");
   require(indentation.size() == time.size(), "indentation", indentation.size(),
           "values do not match the times; give one for each");
   for (std::size_t i = 0; i < time.size(); ++i) {
@@ -125,14 +128,15 @@ ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const P
   const detail::SpringPath path(spring, time, indentation);
   const double largest = law.contact_radius(std::ranges::max(indentation));
   detail::SpringLayout layout(law.profile(), 0, largest, springs);
-  // The outermost cell has no width: the radius is interpolated between springs.
+  // The outermost cell has no width, so its spring carries no load; it serves to interpolate the
+  // contact radius between springs.
   layout.cells.push_back({largest, largest, 0, law.profile().image(largest)});
 
   ViscoelasticIndentation result;
   const std::size_t samples = time.size();
   result.force.resize(samples);
   result.contact_radius.resize(samples);
-  // The clearance of the next spring towards the axis; the first has none.
+  // At each time, the clearance of the next spring towards the axis; the first spring has none.
   std::vector<double> inner_clearance(samples, 0);
   double inner_edge = 0;
   for (const detail::SpringLayout::Cell& cell : layout.cells) {

@@ -8,21 +8,22 @@
 #include <span>
 #include <vector>
 
-#include "contact/quadrature.hpp"
+#include "base/numerics/quadrature.hpp"
 
 namespace salebra::detail {
 
-using Branches = Eigen::ArrayXd;  ///< a number for each term of the series
+using Branches = Eigen::ArrayXd;  ///< one number for each term of the Prony series
 
-/// How the branches change while the spring is stretched at a constant rate: y → decay y + gain Δw,
-/// with the mean mean_decay y + mean_gain Δw.
+/// Change of the branch stretches y while the spring is stretched by Δw at a constant rate: at the
+/// end y is decay·y + gain·Δw, and the mean over the time is mean_decay·y + mean_gain·Δw.
 struct Stretching {
   Branches decay, gain, mean_gain;
   const Branches& mean_decay() const { return gain; }
 };
 
-/// A spring of relaxed stiffness 1 with Maxwell branches: q = w + Σ r_i y_i, y_i' = w' − y_i/τ_i,
-/// r_i = G_i/G∞.
+/// A spring of relaxed stiffness 1 with Maxwell branches. Its force at displacement w is q = w + Σ
+/// r_i y_i, where branch i has the stretch y_i with y_i' = w' − y_i/τ_i, the relaxation time τ_i
+/// and the stiffness ratio r_i = G_i/G∞.
 class MaxwellSpring {
  public:
   explicit MaxwellSpring(const PronySeries& prony);
@@ -32,7 +33,7 @@ class MaxwellSpring {
   double energy(double w, const Branches& y) const {
     return 0.5 * (w * w + (ratio_ * y * y).sum());
   }
-  /// w at which the force is 0.
+  /// Displacement w at which a spring with the branch stretches y has no force.
   double free_displacement(const Branches& y) const { return -(ratio_ * y).sum(); }
   double free_displacement_of_anchors(const Branches& z) const {
     return (ratio_ * z).sum() / unrelaxed_;
@@ -40,18 +41,21 @@ class MaxwellSpring {
   const Branches& ratios() const { return ratio_; }
   double unrelaxed_stiffness() const { return unrelaxed_; }
   Stretching stretching(double duration) const;
-  /// 1 − exp(−t/τ) of each branch.
+  /// The part of its stretch that each branch loses at constant displacement: 1 − exp(−t/τ) after
+  /// the duration t, with relaxation time τ.
   Branches lost_share(double duration) const { return -(-duration / time_).expm1(); }
-  /// ∫ q dw of a stretch by dw from (w, y).
+  /// Work ∫ q dw of the force q, when the spring is stretched by dw from displacement w and branch
+  /// stretches y.
   double work(const Stretching& step, double w, const Branches& y, double dw) const {
     return dw * (w + 0.5 * dw + mean_branch_force(step, y, dw));
   }
-  /// Mean of Σ r_i y_i over that stretch.
+  /// Mean over the time of the branches' force Σ r_i y_i, while the spring is stretched by dw.
   double mean_branch_force(const Stretching& step, const Branches& y, double dw) const {
     return (ratio_ * (step.mean_decay() * y + step.mean_gain * dw)).sum();
   }
 
-  // Without force the branches relax in modes of their own: the retardation times.
+  // Without force, the branch stretches relax in modes, whose time constants are the retardation
+  // times.
   Branches to_modes(const Branches& y) const { return (to_modes_ * y.matrix()).array(); }
   Branches from_modes(const Branches& modes) const {
     return (from_modes_ * modes.matrix()).array();
@@ -63,7 +67,9 @@ class MaxwellSpring {
   Branches recovered(const Branches& y, double duration) const {
     return from_modes(to_modes(y) * mode_decay(duration));
   }
-  /// Matrices of the branches, and of their anchors z_i = w − y_i, where w = Σ r_i z_i/(1 + Σ r).
+  /// Matrices that give, after the duration without force, the branch stretches y_i (recovery) and
+  /// the anchors z_i = w − y_i (anchor_recovery) from their values at the beginning. Without force
+  /// the displacement is w = Σ r_i z_i/(1 + Σ r_i), with the stiffness ratios r_i.
   Eigen::MatrixXd recovery(double duration) const {
     return from_modes_ * mode_decay(duration).matrix().asDiagonal() * to_modes_;
   }
@@ -80,7 +86,8 @@ class MaxwellSpring {
   double unrelaxed_ = 1;
 };
 
-/// The steps of a path δ(t), with what all springs need of them.
+/// The steps of a path δ(t) of the indentation, with the coefficients that all springs need for
+/// these steps.
 struct SpringPath {
   SpringPath(const MaxwellSpring& spring, std::span<const double> time,
              std::span<const double> indentation);
@@ -91,27 +98,33 @@ struct SpringPath {
   std::vector<Branches> mode_decay;
 };
 
-/// Springs between two radii: the flat end of a profile is one, the rest stand at the middles of
-/// equal cells.
+/// Springs between two radii: the flat end of a profile is one spring, the other springs lie in the
+/// middle of cells of equal width.
 struct SpringLayout {
   struct Cell {
-    double middle, edge;  // where it stands, and where its level is met: the rim of a flat end
-    double width, spring_depth;  // m, g(x)
+    // Position of the spring, and the radius of contact at which it touches: the rim for the spring
+    // of a flat end, otherwise the position.
+    double middle, edge;
+    double width, spring_depth;  // touching depth: indentation g(x), m
   };
   SpringLayout(const IndenterProfile& profile, double from, double to, int springs);
   std::vector<Cell> cells;
 };
 
-/// The normal state of the spring at one level g(x) of the indentation.
+/// The normal state of a spring that the indenter touches at the indentation spring_depth.
 class NormalSpring {
  public:
   NormalSpring(const MaxwellSpring& spring, double spring_depth)
-      : spring_(spring), touching_depth_(spring_depth), y_(Branches::Zero(spring.terms())), modes_(y_) {}
+      : spring_(spring),
+        touching_depth_(spring_depth),
+        y_(Branches::Zero(spring.terms())),
+        modes_(y_) {}
 
-  /// Starts from anchors w − y_i of the branches: in contact where the indenter is below the
-  /// surface that they have without force.
+  /// Starts from the anchors w − y_i (displacement minus branch stretch): in contact if the
+  /// indenter is below the position that a spring with these anchors has without force.
   void start(double indentation, const Branches& anchors) {
-    const double depth = indentation - touching_depth_, free = spring_.free_displacement_of_anchors(anchors);
+    const double depth = indentation - touching_depth_,
+                 free = spring_.free_displacement_of_anchors(anchors);
     closed_ = depth > free;
     y_ = std::max(depth, free) - anchors;
     if (!closed_) modes_ = spring_.to_modes(y_);
@@ -126,15 +139,15 @@ class NormalSpring {
   double force(double indentation) const {
     return closed_ ? spring_.force(indentation - touching_depth_, y_) : 0;
   }
-  /// Height of the indenter over the surface without force, < 0 in contact; continuous in the
-  /// level.
+  /// Height of the indenter above the position that the spring would have without force, < 0 in
+  /// contact; a continuous function of the touching depth.
   double clearance(double indentation) const {
     return closed_ ? -force(indentation) / spring_.unrelaxed_stiffness()
                    : displacement(indentation) - (indentation - touching_depth_);
   }
 
-  /// Goes through one step of the path; calls on_part(closed, share of the step, work of the force)
-  /// for each part between touch and release.
+  /// Advances by one step of the path. The step consists of parts between touch and release; calls
+  /// on_part(in contact or not, fraction of the step's duration, work of the force) for each part.
   template <class OnPart>
   void advance(const SpringPath& path, std::size_t step, OnPart&& on_part);
 
@@ -147,7 +160,7 @@ class NormalSpring {
 
 template <class OnPart>
 void NormalSpring::advance(const SpringPath& path, std::size_t step, OnPart&& on_part) {
-  // Touch and release follow each other; more than these in a step are of rounding.
+  // Touch and release alternate; more than this many of them in one step are round-off.
   constexpr int max_events = 6;
   const double duration = path.duration[step];
   double depth = path.indentation[step] - touching_depth_;

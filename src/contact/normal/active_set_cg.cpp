@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Conjugate gradients on the contact set: the iteration, its restarts and its exact residual.
+// Conjugate gradients on the contact set: the iteration, its restarts and the exact residual.
 #include "active_set_cg.hpp"
 
 #include <algorithm>
@@ -13,24 +13,30 @@
 namespace salebra::detail {
 namespace {
 
-// Cells closer to contact than this part of h_rms are worked on; later, when little moves, fewer.
+// CG works on the tiles with cells under pressure or closer to the contact plane than this fraction
+// of h_rms: the wide margin at first, the narrow one later, when few cells still change.
 constexpr double widest_margin = 0.1, narrowest_margin = 0.03;
-// A gap that no result needs is kept up to so far from the expected plane: the widest margin, and
-// as much for the plane's own change.
+// The gap is stored up to this distance from the expected contact plane, in h_rms, unless a result
+// needs all gaps: the widest margin, and as much again for the change of the plane.
 constexpr double kept_reach = 0.2;
-// The set of free cells changes when its violations exceed this part of the last step …
+// The set of free cells changes when its violations (pressures outside the bounds, gaps of wrong
+// sign) exceed this fraction of the last step.
 constexpr double usual_threshold = 0.5;
-// … and when CG stalls, of these, one after the other.
+// If CG stalls, it tries these values in place of usual_threshold, one after the other.
 constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
-// In float, the residual is computed afresh when the estimate of e_c has fallen by this factor …
+// In float, the residual is computed anew when the estimate of the complementarity error e_c has
+// fallen by this factor.
 constexpr double refresh_after = 1e-4;
-// … and on the multilevel kernel, whose own error is a few per cent.
+// On the multilevel kernel, whose own error is a few per cent, the residual is computed anew when
+// the estimate of e_c has fallen by this factor.
 constexpr double multilevel_refresh_after = 0.03;
-// Fresh residuals on the multilevel kernel are computed in double once e_c is below this.
+// While the multilevel kernel is in use, fresh residuals are computed in double once the
+// complementarity error e_c is below this value.
 constexpr double exact_below = 2e-6;
-// Where so many fresh residuals in a row did not halve e_c, the multilevel kernel is left.
+// CG goes from the multilevel kernel to exact transforms when this many fresh residuals in a row
+// did not halve the complementarity error e_c.
 constexpr int max_misses = 2;
-// A start for a finer level needs no more than this many refreshes.
+// A solve whose result only starts a finer grid computes the residual anew at most this many times.
 constexpr int max_inexact_refreshes = 3;
 
 }  // namespace
@@ -56,7 +62,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const RowPartition& rows, dou
   static_assert(halo == InverseStencil::radius);
 }
 
-// Changes the pressures so that their mean is the one asked, within the bound.
+// Corrects the pressures p to the requested mean, within 0 … bound.
 template <class Real>
 void ActiveSetCg<Real>::correct_load(const ScaledOperatingPoint& target, double* p) const {
   const double load = target.value * static_cast<double>(grid_.points()), bound = target.bound;
@@ -96,19 +102,19 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
     return compliance_;
   } else {
     if (!exact_compliance_) exact_compliance_ = operators_->compliance<double>();
-    // The tiles are listed anew after it is used.
+    // The spectrum overwrites the tiles' arrays in the pool; the tiles are listed anew afterwards.
     exact_compliance_->keep_spectrum_in(pool(exact_compliance_->spectrum_bytes()));
     return *exact_compliance_;
   }
 }
 
-// Its spectrum is where the tiles are while the iterations do without it, and then in memory of its
-// own.
+// Returns the convolution for whole fields. Its spectrum shares memory with the tiles' arrays while
+// the iterations do not need a spectrum; otherwise it has its own memory.
 template <class Real>
 Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
   if (on_multilevel_ || tiles_.empty()) {
-    // With room for that of the exact check, which is twice as large and comes later: memory counts
-    // once it is touched.
+    // Reserve space for the spectrum of the exact residual in double, which is twice as large and
+    // comes later: memory that is not touched does not count.
     compliance_.keep_spectrum_in(pool(2 * compliance_.spectrum_bytes()));
     spectrum_in_pool_ = true;
   }
@@ -128,8 +134,8 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
                                        })));
 }
 
-// A row of the pressure for a transform. Only tiles in use carry load, and others are not read;
-// before there are any, all are.
+// Returns a row of the pressure for a Fourier transform. Only tiles in use carry load, so other
+// tiles are not read; before the first tiles are chosen, the whole row is read.
 template <class Real>
 template <class Number>
 const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* buffer) const {
@@ -152,11 +158,12 @@ const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* 
   return buffer;
 }
 
-// g = Gp − h, and what follows from it; g is kept near the plane only unless `whole`.
+// Computes g = Gp − h (displacement by the pressures minus height), the complementarity error e_c
+// and the plane height. Unless `whole`, g is stored only near the contact plane.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
-  // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known
-  // only after the pass.
+  // To avoid cancellation, Σp(g − plane) is summed with an approximate plane height; the exact
+  // plane height is known only after the pass.
   const double near = run.load_given() ? run.plane_height : run.target.value;
   const double kept_below = whole || std::isfinite(run.target.bound)
                                 ? std::numeric_limits<double>::infinity()
@@ -208,13 +215,14 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
     result.residual += std::max(0.0, near - total.least) / rms_height_;
     result.plane_height = near;
   }
-  // The next tiles want a g that was not kept.
-  if (result.plane_height + widest_margin * rms_height_ > kept_below) return dense_gap(run, exact, true);
+  // The choice of the next tiles needs values of g that were not stored.
+  if (result.plane_height + widest_margin * rms_height_ > kept_below)
+    return dense_gap(run, exact, true);
   return result;
 }
 
-// e_c by what a step has seen. with_clipped: counts the pressure that the bounds took, where the
-// set stays as it is.
+// Estimates the complementarity error e_c from the sums of a step of CG. with_clipped: also count
+// the pressure that the bounds cut off, if the set of free cells stays unchanged.
 template <class Real>
 double ActiveSetCg<Real>::estimate_of(const StepSums& step, const Run& run,
                                       bool with_clipped) const {
@@ -225,12 +233,13 @@ double ActiveSetCg<Real>::estimate_of(const StepSums& step, const Run& run,
   double estimate =
       run.load_given()
           ? (step.signed_misfit - (step.least - run.plane_height) * step.pressure) / scale_of_misfit
-          : step.misfit / scale_of_misfit + std::max(0.0, run.plane_height - step.least) / rms_height_;
+          : step.misfit / scale_of_misfit +
+                std::max(0.0, run.plane_height - step.least) / rms_height_;
   if (with_clipped) estimate += step.clipped / carried;
   return estimate;
 }
-// One step of CG, and the change of the free set that it calls for. Returns false where no free
-// cell is left.
+// Takes one step of CG, and changes the set of free cells if needed. Returns false if no cell is
+// free.
 template <class Real>
 bool ActiveSetCg<Real>::iterate(Run& run) {
   if (!(run.count > 0)) return false;
@@ -240,12 +249,13 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   fill_halo_of_residual();
   const auto now = total_of(over_tiles<PreconditionSums>(
       [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
-  // At given load the steps must keep it: directions have no mean over the free cells.
+  // If the load is given, a step must not change it: directions have zero mean over the free cells.
   const double z_mean = load_given ? now.z / run.count : 0;
   const double t_mean = load_given ? now.t / run.count : 0;
   const double zw = now.zw - z_mean * now.w;
   const double zz = std::max(0.0, now.zz - now.z * z_mean);
-  // <t, r> of the direction t = z − z_mean + β(t − t_mean).
+  // Scalar product <t, r> of the residual r with the direction t = z − z_mean + β(t − t_mean),
+  // where z is the preconditioned residual.
   const auto descent_along = [&](double beta) {
     return now.zr - z_mean * now.r + beta * (now.tr - t_mean * now.r);
   };
@@ -264,8 +274,9 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
       curvature.tw > 0 && std::isfinite(descent / curvature.tw) ? descent / curvature.tw : 0;
   if (load_given) run.plane_height -= alpha * curvature.w / run.count;
 
-  const auto step = total_of(over_tiles<StepSums>(
-      [&](Index begin, Index end) { return kernels_.step(a, begin, end, alpha, run.plane_height); }));
+  const auto step = total_of(over_tiles<StepSums>([&](Index begin, Index end) {
+    return kernels_.step(a, begin, end, alpha, run.plane_height);
+  }));
   ++run.outcome.iterations;
   const auto resting =
       static_cast<double>(std::count(quiet_.begin(), quiet_.end(), 1)) * tile_width;
@@ -291,8 +302,8 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   return true;
 }
 
-// p within its bounds and at its load, g = Gp − h and e_c over all cells, and the tiles that they
-// call for.
+// Puts the pressures p within their bounds and corrects their load, computes g = Gp − h and the
+// complementarity error e_c over all cells, and chooses the tiles anew.
 template <class Real>
 void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   collect_pressure(run);
@@ -337,9 +348,9 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ScaledOperatingPoint& target,
   multilevel_share_ = limits.multilevel_share;
   auto [plane_height, residual] =
       dense_gap(run, false, run.load_given() && !limits.expected_plane_height.has_value());
-  // A start that meets the tolerance is iterated once as well. Otherwise, where each of several
-  // contacts starts from the one before, their differences would measure the starts. Single
-  // precision does not show how far a start is from the solution.
+  // Even a start that meets the tolerance is iterated once. Otherwise, if each of several contacts
+  // starts from the one before, the differences between their results would show how good the
+  // starts were. Single precision cannot show how far a start is from the solution.
   if (limits.exact && residual < std::max(exact_below, limits.tolerance)) {
     const ContactResidual exact = dense_gap(run, true, true);
     plane_height = exact.plane_height;
@@ -375,8 +386,8 @@ void ActiveSetCg<Real>::go_on(Run& run) {
     if (fresh_needed || falls_back) refresh(run, falls_back);
     if (run.finished) break;
     if (falls_back) {
-      // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is
-      // left as it is.
+      // If no cell is free, or the set of free cells keeps changing, a slower method, gradient
+      // projection, finishes the solve; on a coarse grid the result is accepted as it is.
       if (limits.exact)
         gradient_projection(
             {exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_, run.target},

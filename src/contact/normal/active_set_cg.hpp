@@ -22,7 +22,7 @@
 
 namespace salebra::detail {
 
-// Adds the seconds until its end.
+// Adds the seconds between its construction and destruction to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -36,40 +36,44 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-// Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells,
-// preconditioned by InverseStencil, that are restarted by a fresh residual only, not when the set
-// of free cells changes. Search directions and their images are Real; p and g are double, and a
-// result is accepted on a residual computed afresh over all cells. The iteration is a separate
-// loop, not tangential/conjugate_gradients.hpp: an iteration reads and writes each tile in three
-// fused passes, and its cost is memory traffic.
+// Minimises ½p·Gp − p·h over the pressures 0 <= p <= bound on one grid, with the normal compliance
+// G and the heights h, by conjugate gradients on the free cells (0 < p < bound), preconditioned by
+// InverseStencil. CG restarts only at a fresh residual, not when the set of free cells changes.
+// Search directions and the displacements that they cause are Real; p and g = Gp − h are double,
+// and a result is accepted only on a residual computed anew over all cells. The loop is not the one
+// of tangential/conjugate_gradients.hpp, because the cost of an iteration is memory traffic: this
+// loop reads and writes each tile in three fused passes.
 //
-// The pressure is in any unit that makes `compliance` give metres.
+// The pressure is in any unit in which G gives metres.
 template <class Real>
 class ActiveSetCg {
  public:
   ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
               double rms_height)
       : ActiveSetCg(grid, RowPartition(grid.nx), contact_modulus, boundary, heights, rms_height) {}
-  // Works over the processes of a share of the rows: fields, and tiles, are those of the rows of
-  // this process, and each call is collective. All decisions follow from sums that have the same
-  // bits everywhere, so that no process leaves the others waiting.
-  ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus, Boundary boundary,
-              const Heights& heights, double rms_height);
+  // If several processes share the rows of the grid, fields and tiles are those of this process's
+  // rows, and each call is collective. All decisions follow from sums that have the same bits in
+  // every process, so no process waits for another in vain.
+  ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus,
+              Boundary boundary, const Heights& heights, double rms_height);
 
-  // p: the start on entry, the solution on return; g = Gp − h on return.
+  // p: the pressures to start from on entry, the solution on return. g: on return Gp − h, the
+  // displacement by p minus the height.
   ActiveSetOutcome solve(const ScaledOperatingPoint& target, const ActiveSetLimits& limits,
                          double* p, double* g);
 
-  // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of
-  // rigid approach adds. `pressure`, where given, receives q.
+  // Computes the load Σq that a unit of rigid approach adds: the pressures q have the displacement
+  // Gq = 1 on the cells with 0 < p < bound, and q = 0 on all other cells. `pressure`, if given,
+  // receives q.
   PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
                           Field* pressure = nullptr);
 
-  // Makes a set of cells ready for invert(): ix·ny + iy of the rows of this process, in row order.
-  // False where the multilevel kernel cannot be used.
+  // Sets the cells for invert(), as the numbers ix·ny + iy in the rows of this process, in row
+  // order. Returns false if the multilevel kernel cannot be used.
   bool hold(const std::vector<Index>& cells);
-  // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this
-  // part of all that was gained.
+  // Computes the pressures q ≈ G⁻¹u on the cells of hold(), with the multilevel kernel in place of
+  // the normal compliance G. CG ends when a step gains less than the fraction step_ends of the
+  // total gain.
   void invert(const double* u, double step_ends, double* q, PunchOutcome& outcome);
 
  private:
@@ -81,17 +85,17 @@ class ActiveSetCg {
     double* g;
     ActiveSetOutcome outcome = {};
 
-    double count = 0;                                       // free cells
-    double plane_height = 0;                                       // λ
-    bool has_direction = false;                             // t, w hold a direction and its image
+    double count = 0;                                       // number of free cells
+    double plane_height = 0;                                // λ
+    bool has_direction = false;                             // t and w = Gt hold a direction
     double curvature = 1;                                   // <t, w>
     double threshold = 0;                                   // see worth_a_change in iterate()
-    double best = std::numeric_limits<double>::infinity();  // estimate of e_c, for patience
+    double best = std::numeric_limits<double>::infinity();  // lowest estimate of e_c
     int since_best = 0;
     std::size_t stalls = 0;
-    double at_refresh = 1;  // e_c at the last refresh
+    double at_refresh = 1;  // complementarity error e_c at the last refresh
     int refreshes = 0;
-    int misses = 0;  // refreshes on the multilevel kernel that did not find e_c much smaller
+    int misses = 0;  // successive refreshes on the multilevel kernel that did not halve e_c
     double estimate = 0;
     bool finished = false;
 
@@ -99,12 +103,13 @@ class ActiveSetCg {
     bool interrupted() const { return outcome.termination == Termination::interrupted; }
   };
 
-  Index points() const { return rows_.count() * grid_.ny; }  // of this process
+  Index points() const { return rows_.count() * grid_.ny; }  // number of cells in this process
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
   Index first_tile(Index row) const { return row_begins_[static_cast<std::size_t>(row)]; }
   TileArrays<Real> arrays(double bound);
 
-  // Dense passes: body(begin, end) over slabs of rows, or over blocks where it has a sum.
+  // A pass over the grid: calls body(begin, end) for slabs of rows, or for blocks of rows if body
+  // returns sums.
   template <class Body>
   void for_rows(const Body& body) const {
     parallel::for_slabs(rows_.count(), body, points());
@@ -119,8 +124,8 @@ class ActiveSetCg {
     return parallel::sum_blocks(rows_, body, points());
   }
 
-  // Passes over the tiles: over slabs of their list, or over those of a block of rows where there
-  // is a sum.
+  // A pass over the tiles: calls body(begin, end) for slabs of the list of tiles, or for the tiles
+  // of a block of rows if body returns sums.
   template <class Body>
   void for_tiles(const Body& body) const {
     parallel::for_slabs(static_cast<Index>(tiles_.size()), body, tile_points());
@@ -132,10 +137,11 @@ class ActiveSetCg {
         tile_points());
   }
 
-  // Gx, or G~x on the multilevel kernel, of a field x that lives on the tiles: spread(begin, end, row) writes
-  // the tiles [begin, end) of a row into it, collect(begin, end, row) takes them from the row of Gx
-  // and returns its sums. Row by row of this process, those of rows without tiles being Sums{}. On
-  // the multilevel kernel x is spread over the residual, which is made anew before it is read again.
+  // Computes the displacement Gx of a field x on the tiles, exactly or by the multilevel kernel.
+  // spread(begin, end, row) writes the tiles [begin, end) of a row of x into `row`; collect(begin,
+  // end, row) reads these tiles from the row of Gx and returns its sums. Returns the sums of each
+  // row of this process, Sums{} for rows without tiles. On the multilevel kernel x overwrites the
+  // residual, which is computed anew before it is read again.
   template <class Sums, class Spread, class Collect>
   std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
     std::vector<Sums> sums(static_cast<std::size_t>(rows_.count()));
@@ -171,7 +177,8 @@ class ActiveSetCg {
         });
     return sums;
   }
-  // body(row, begin, end) for the rows that have tiles.
+  // Calls body(row, begin, end) for the rows that have tiles; [begin, end) are the tiles of the
+  // row.
   template <class Body>
   void for_rows_in_use(const Body& body) const {
     parallel::for_slabs(
@@ -185,7 +192,8 @@ class ActiveSetCg {
         tile_points());
   }
 
-  // Counts an application of G or G~, and the seconds until its end.
+  // While it exists, counts an application of the normal compliance, exact or multilevel, and its
+  // seconds.
   class Applying {
    public:
     template <class Outcome>
@@ -197,7 +205,8 @@ class ActiveSetCg {
    private:
     Stopwatch stopwatch_;
   };
-  // w = Gt for the next direction t, with <t, w> and Σw over the free cells.
+  // Computes the next search direction t and its displacement w = Gt; returns the scalar product
+  // <t, w> and Σw over the free cells.
   CurvatureSums take_direction(double z_mean, double beta, double t_mean);
 
   void reset();
@@ -223,7 +232,7 @@ class ActiveSetCg {
   void fill_halo_of_residual();
   double estimate_of(const StepSums& step, const Run& run, bool with_clipped) const;
   bool iterate(Run& run);
-  // Iterates from tiles that are chosen until the solution, or what ends it before.
+  // Iterates on the chosen tiles until the solve has converged or a limit ends it.
   void go_on(Run& run);
   LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
   void change_set(Run& run, bool truncate, double pressure);
@@ -238,28 +247,31 @@ class ActiveSetCg {
   double cell_compliance_;
   std::shared_ptr<NormalOperators> operators_;
   Convolution2D<Real> compliance_;
-  std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
+  std::optional<Convolution2D<double>> exact_compliance_;  // made at first use
   std::array<Real, stencil_size> stencil_;
   const TileKernels<Real>& kernels_;
-  std::optional<MultilevelKernel> multilevel_;  // made when it is first needed
-  bool operator_chosen_ = false;                // of this solve
-  MultilevelShare multilevel_share_;            // of the limits
-  bool spectrum_in_pool_ = false;               // that of compliance_
-  bool on_multilevel_ =
-      false;  // the iterations apply the multilevel kernel in place of a transform
+  std::optional<MultilevelKernel> multilevel_;  // made at first use
+  bool operator_chosen_ = false;                // whether choose_operator() ran in this solve
+  MultilevelShare multilevel_share_;            // from the limits
+  bool spectrum_in_pool_ = false;  // whether compliance_ keeps its spectrum in the pool
+  // Whether iterations apply the multilevel kernel instead of an exact Fourier transform.
+  bool on_multilevel_ = false;
 
   Index tiles_per_row_;
   std::vector<Tile> tiles_;            // row by row
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (rows, tiles_per_row)
-  std::vector<double> nearest_;  // the same, of the last dense_gap(): least g, −∞ under load
-  std::vector<Index> indices_;    // of the cells of hold(), in packed fields
-  // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
+  // Minimum of g = Gp − h in each tile (rows, tiles_per_row), from the last dense_gap(); −∞ if a
+  // cell of the tile carries load.
+  std::vector<double> nearest_;
+  std::vector<Index> indices_;  // of the cells of hold(), in packed fields
+  // The fields of TileArrays. Between two refreshes p and g are up to date only on the tiles.
   HaloField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;
   Real *z_ = nullptr, *m_ = nullptr, *t_ = nullptr, *w_ = nullptr;
   std::vector<unsigned char> quiet_;
-  // Holds the tiles' arrays and, while they are not needed, the spectrum of a dense residual.
+  // Memory of the tiles' arrays and, while these arrays are not needed, of the spectrum for a
+  // residual over all cells.
   LargeArray<std::byte> pool_;
   std::size_t pool_size_ = 0;
 };

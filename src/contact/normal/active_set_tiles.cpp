@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Choice of the tiles that the active-set CG works on, and change of its set of free cells.
+// Chooses the tiles on which the active-set CG works, and changes its set of free cells.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -10,10 +10,11 @@
 namespace salebra::detail {
 namespace {
 
-// The share of the first tiles, which are the most. Measured on one core (bench/contact): the
-// multilevel kernel is as fast as a transform of 512² where about a third of the points are in tiles,
-// of 1024² at some more than half of them, and of 2048² where all are; what surrounds the stencils
-// weighs less on large grids.
+// Returns the fraction of the points that the first tiles of a solve may hold for the multilevel
+// kernel to be worthwhile; later there are fewer tiles. Measured on one core (bench/contact): the
+// multilevel kernel is as fast as a transform if the tiles hold about a third of the points of
+// 512², slightly more than half of the points of 1024², or all points of 2048². Work other than
+// that of the stencils weighs less on large grids.
 double worthwhile_share(double points) {
   const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
   return doublings < -0.1 ? 0 : 0.35 * std::pow(1.7, std::max(doublings, 0.0));
@@ -56,18 +57,18 @@ void ActiveSetCg<Real>::reset() {
 template <class Real>
 std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   if (bytes > pool_size_) {
-    pool_.reset();  // free first, to avoid holding both
-    // With room for a contact that grows: new pages would have to be cleared, and what is never
-    // touched takes no memory.
+    pool_.reset();  // free the old memory first
+    // Leave space for a contact that grows: new memory would have to be cleared by the system, and
+    // memory that is not touched costs nothing.
     pool_size_ = bytes + bytes / 2;
     pool_ = large_array<std::byte>(pool_size_);
   }
   return pool_.get();
 }
 
-// The tiles that are in use, with room for what is stored tile after tile. There is no direction
-// yet: to carry the last one over to the new tiles costs more iterations than it saves, since it
-// belongs to the residual before.
+// Lists the tiles in use and lays out the packed arrays. The last search direction is dropped:
+// carrying it over to the new tiles costs more iterations than it saves, since it belongs to the
+// old residual.
 template <class Real>
 void ActiveSetCg<Real>::list_tiles() {
   tiles_.clear();
@@ -93,8 +94,9 @@ void ActiveSetCg<Real>::list_tiles() {
   choose_operator();
 }
 
-// The multilevel kernel where few tiles are in use: its work goes with their number, that of a transform does
-// not. Chosen once in a solve, since a change costs more than it saves.
+// Chooses the multilevel kernel if few tiles are in use: its work grows with the number of tiles,
+// that of a transform does not. The choice is made once per solve, since a change of the operator
+// costs more than it saves.
 template <class Real>
 void ActiveSetCg<Real>::choose_operator() {
   if constexpr (std::is_same_v<Real, float>) {
@@ -103,7 +105,7 @@ void ActiveSetCg<Real>::choose_operator() {
       const double points =
           static_cast<double>(operators_->symbol().period_x * operators_->symbol().period_y);
       const double most = multilevel_share_.value_or(worthwhile_share(points));
-      double tile_points = 0;  // of all processes
+      double tile_points = 0;  // over all processes
       for (const double of_block : over_tiles<double>([](Index begin, Index end) {
              return static_cast<double>((end - begin) * tile_width);
            }))
@@ -116,8 +118,8 @@ void ActiveSetCg<Real>::choose_operator() {
   }
 }
 
-// The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the
-// free cells in them.
+// Chooses the tiles that have a cell under pressure or closer to the contact plane than
+// margin·h_rms, and sets which cells of these tiles are free.
 template <class Real>
 void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   const double near = run.plane_height + margin * rms_height_, bound = run.target.bound;
@@ -133,38 +135,40 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   });
   list_tiles();
   run.has_direction = false;
-  begin_set(run, over_tiles<SetSums>([&](Index begin, Index end) {
-              SetSums sums;
-              for (Index k = begin; k < end; ++k) {
-                const Tile tile = tiles_[static_cast<std::size_t>(k)];
-                const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-                const Index dense = tile.row * grid_.ny + tile.column;
-                const Index packed = k * tile_width;
-                std::copy_n(run.p + dense, width, p_ + packed);
-                std::copy_n(run.g + dense, width, g_ + packed);
-                // What lies beyond the row is never free.
-                std::fill_n(p_ + packed + width, tile_width - width, 0.0);
-                std::fill_n(g_ + packed + width, tile_width - width, 0.0);
-                std::fill_n(m_ + packed, tile_width, Real(0));
-                // Most tiles hold neither load nor a gap below the plane.
-                if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
-                                                        tile.column / tile_width)] < run.plane_height)) {
-                  quiet_[static_cast<std::size_t>(k)] = 1;
-                  continue;
-                }
-                for (Index i = 0; i < width; ++i) {
-                  const double p = p_[packed + i], g = g_[packed + i];
-                  if (!(p >= bound ? g > run.plane_height : p > 0 || g < run.plane_height)) continue;
-                  m_[packed + i] = Real(1);
-                  sums.count += 1;
-                  sums.g += g;
-                }
-              }
-              return sums;
-            }));
+  begin_set(
+      run, over_tiles<SetSums>([&](Index begin, Index end) {
+        SetSums sums;
+        for (Index k = begin; k < end; ++k) {
+          const Tile tile = tiles_[static_cast<std::size_t>(k)];
+          const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+          const Index dense = tile.row * grid_.ny + tile.column;
+          const Index packed = k * tile_width;
+          std::copy_n(run.p + dense, width, p_ + packed);
+          std::copy_n(run.g + dense, width, g_ + packed);
+          // Cells of a tile beyond the end of the row are never free.
+          std::fill_n(p_ + packed + width, tile_width - width, 0.0);
+          std::fill_n(g_ + packed + width, tile_width - width, 0.0);
+          std::fill_n(m_ + packed, tile_width, Real(0));
+          // Most of the other tiles have neither load nor a cell below the contact plane.
+          if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
+                                                  tile.column / tile_width)] < run.plane_height)) {
+            quiet_[static_cast<std::size_t>(k)] = 1;
+            continue;
+          }
+          for (Index i = 0; i < width; ++i) {
+            const double p = p_[packed + i], g = g_[packed + i];
+            if (!(p >= bound ? g > run.plane_height : p > 0 || g < run.plane_height)) continue;
+            m_[packed + i] = Real(1);
+            sums.count += 1;
+            sums.g += g;
+          }
+        }
+        return sums;
+      }));
 }
 
-// Puts p back into the dense array, within its bounds and at its load.
+// Copies the pressures of the tiles into the field of all cells, within their bounds and with the
+// requested load.
 template <class Real>
 void ActiveSetCg<Real>::collect_pressure(Run& run) {
   double sum = 0;
@@ -179,8 +183,8 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
   if (run.load_given() && !scaled) correct_load(run.target, run.p);
 }
 
-// p of the tiles within its bounds, times a factor, in the dense array. Between two refreshes
-// nothing reads it from there.
+// Writes scale·p of the tiles, within the bounds, into the field of all cells, which nothing reads
+// between two refreshes.
 template <class Real>
 void ActiveSetCg<Real>::unpack_pressure(const Run& run, double scale) const {
   for_tiles([&](Index begin, Index end) {
@@ -194,7 +198,8 @@ void ActiveSetCg<Real>::unpack_pressure(const Run& run, double scale) const {
   });
 }
 
-// Number of free cells, the level, and the residual on them, after the set or g changed.
+// Computes the number of free cells, the plane height and the residual after a change of the set of
+// free cells or of g = Gp − h.
 template <class Real>
 void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   const SetSums total = total_of(parts);
@@ -204,15 +209,15 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.plane_height); });
 }
 
-// Fills the halo of the residual, so that the stencil sees the periodic images and the rows of
-// other processes.
+// Fills the halo of the residual, through which the stencil reads the periodic images and the rows
+// of other processes.
 template <class Real>
 void ActiveSetCg<Real>::fill_halo_of_residual() {
   r_.fill_halo(boundary_, halo_rows_);
 }
 
-// The correction that puts p on the tiles back to the load, given Σp over the cells below the
-// bound.
+// Returns the correction that gives the pressures p on the tiles the requested load again, from
+// `pressure` = Σp over the cells below the bound.
 template <class Real>
 LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double pressure) const {
   const double load = run.target.value * static_cast<double>(grid_.points()),
@@ -235,8 +240,8 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
   });
 }
 
-// Takes new free cells; with truncate also puts p back within its bounds and to
-// its load, at the cost of one application of G.
+// Changes the set of free cells. With truncate it also puts the pressures within their bounds and
+// restores their load, at the cost of one application of the normal compliance.
 template <class Real>
 void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const auto a = arrays(run.target.bound);
@@ -252,7 +257,7 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
     kernels_.truncate(a, begin, end, run.plane_height,
                       {correction.scale, correction.shift, correction.full_from});
   });
-  // The last direction and its image stay as they are: CG goes on without a restart.
+  // The last search direction and its displacement stay valid: CG continues without a restart.
   std::vector<SetSums> sums;
   {
     const Applying applying(*this, run.outcome);

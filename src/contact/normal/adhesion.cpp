@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adhesive contact as a sequence of contacts without adhesion.
+// Adhesive contact, solved as a sequence of contacts without adhesion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,22 +21,24 @@ namespace salebra {
 namespace {
 
 constexpr double coarse_zone = 1 / 0.3, min_zone = 1 / 0.7;
-// Largest part of the largest tension that may act at the edge of an isolated surface.
+// Largest tension allowed at the edge of an isolated surface, as a fraction of the maximum tension.
 constexpr double edge_tension = 1e-2;
-// Steps that Anderson's extrapolation looks back.
+// Number of earlier steps that Anderson's extrapolation combines.
 constexpr std::size_t memory_of_steps = 7;
-// On a branch that is followed, extrapolation begins at this residual: before, it leaves the valley.
+// If a branch of a hysteresis cycle is followed, extrapolation starts below this residual; earlier
+// it would leave the energy minimum of the branch.
 constexpr double near_a_minimum = 1e-2;
-// Error of the tension that a contact may leave, as part of the residual.
+// Error of the tension that the contact solve inside a step may leave, as a fraction of the step's
+// residual.
 constexpr double inner_share = 0.02;
 constexpr double loosest_inner = 1e-3, sharpest_inner = 1e-12;
 constexpr double sharpening = 0.3, falls = 0.7;
-// A load below this part of the tension is rounding.
+// A mean pressure below this fraction of the maximum tension is round-off.
 constexpr double no_load = 1e-14;
-// So many contacts without a lower residual are one that stalls.
+// The iteration has stalled after this many contact solves without a lower residual or energy.
 constexpr int patience_of_adhesion = 60;
 
-/// What the solver needs of the surface, heights counted from the highest.
+/// Sums over the heights, counted from `zero`.
 struct HeightSums {
   double highest = -std::numeric_limits<double>::infinity();
   double first = 0, second = 0;  // Σ(h − zero), Σ(h − zero)²
@@ -65,7 +67,7 @@ HeightSums height_sums(const RowPartition& rows, const Field& heights, double ze
   return total;
 }
 
-/// rms slope by differences between neighbours. Collective.
+/// rms slope of the heights, from the differences of neighbouring cells. Collective.
 double rms_slope_of(const Surface& surface, const RowPartition& rows) {
   const Field& h = surface.heights;
   const Grid2D& grid = surface.grid;
@@ -117,10 +119,11 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
                 (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
             "start_tension", start->size(), "cells must fill the grid with finite tensions >= 0");
   const double zone = cells_in_process_zone(adhesion, surface.grid, contact_modulus);
-  // The zone grows with the square of the range and with the number of cells.
+  // The number of cells in the process zone is proportional to the square of the range and to 1/(cell
+  // size).
   require(zone >= min_zone || options.force_coarse, "adhesion_range", adhesion.range,
-          fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
-                      "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
+          fmt::format("leaves {:.2g} cells in the process zone, so that the cells decide what "
+                      "sticks; use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
                       zone, adhesion.range * std::sqrt(coarse_zone / zone),
                       std::max(surface.grid.dx(), surface.grid.dy()) * zone / coarse_zone));
 }
@@ -146,11 +149,11 @@ class AdhesiveSolve {
   AdhesiveContactState run() {
     start();
     detail::Anderson anderson(rows_, memory_of_steps);
-    Field safe;  // the plain step from the last tension that was accepted
+    Field safe;  // next tension without extrapolation
     bool extrapolated = false;
     double energy = std::numeric_limits<double>::infinity(), noise = 0;
     double residual = 1, best = std::numeric_limits<double>::infinity(), lowest = best;
-    double sharpness = 1;  // of the contacts
+    double sharpness = 1;  // factor applied to the inner tolerance
     int since_best = 0;
     for (;;) {
       const double inner = std::max(sharpest_inner, sharpness * inner_tolerance(residual));
@@ -172,14 +175,14 @@ class AdhesiveSolve {
         continue;
       }
       const double residual_here = found.max_change / reference_;
-      // Where neither the energy fell beyond the noise of the contacts nor the residual, they become
-      // sharper.
+      // If neither the energy fell by more than the noise of the contact solves, nor the residual
+      // fell by the factor `falls`, the tolerance of the contact solves is tightened.
       if (!(found.energy < energy - noise - noise_here) && residual_here > falls * residual)
         sharpness *= sharpening;
       energy = found.energy;
       noise = noise_here;
       residual = state_.adhesion_residual = residual_here;
-      // The last contact has to be as sharp as the tolerance asks.
+      // The last contact solve must be as accurate as the tolerance requires.
       if (residual <= options_.tolerance &&
           state_.residual <= 2 * inner_tolerance(options_.tolerance)) {
         state_.termination = Termination::converged;
@@ -220,7 +223,8 @@ class AdhesiveSolve {
   bool yields() const { return std::isfinite(options_.contact.hardness); }
   double bound() const { return adhesion_.pressure_bound(options_.contact.hardness); }
 
-  /// A force becomes a pressure, the indentation of a periodic contact its mean gap.
+  /// Converts the operating point: a force to a pressure, the indentation of a periodic contact to
+  /// its mean gap.
   OperatingPoint checked(const OperatingPoint& point) const {
     const bool by_force = point.control == ControlQuantity::normal_force,
                by_gap = point.control == ControlQuantity::mean_gap;
@@ -234,22 +238,24 @@ class AdhesiveSolve {
                           modulus_));
       const double hardness = options_.contact.hardness;
       require(!yields() || (nominal > 0 && nominal < hardness), name, value,
-              fmt::format("must be > 0 and below the hardness, {}, on the nominal area: a first "
-                          "loading presses",
+              fmt::format("must give a nominal pressure > 0 and below the hardness, {}, in a "
+                          "first loading",
                           format_quantity(hardness, Dimension::pressure)));
       return at_pressure(nominal);
     }
     require(!yields(), name, value,
-            "is not held in a first loading; with a hardness give a pressure or a force");
+            "cannot be prescribed in a first loading; with a hardness give a pressure or a force");
     require(!by_gap || periodic_, "boundary", "free",
             "has no mean gap; give a force or an indentation");
     require(!by_gap || value > 0, name, value, "must be > 0");
     require(by_gap || !periodic_ || value < mean_depth_, name, value,
-            fmt::format("must be below {} m, where a periodic contact is full", mean_depth_));
+            fmt::format("must be below {} m, at which a periodic surface is in full contact",
+                        mean_depth_));
     return periodic_ && !by_gap ? at_mean_gap(mean_depth_ - value) : point;
   }
 
-  // An isolated surface whose edge is held is cut off there.
+  // Throws if there is tension at the edge of an isolated surface: the grid then cuts off adhesion
+  // beyond its edge.
   void require_wide_grid() const {
     if (periodic_) return;
     const double approach = point_.load_given() ? 0.0 : std::max(0.0, point_.value);
@@ -268,12 +274,14 @@ class AdhesiveSolve {
          }))
       held = std::max(held, part);
     require(held <= edge_tension * largest(), "boundary", "free",
-            fmt::format("must leave room: the edge of the grid is held by {:.2g} of the largest "
-                        "tension; use a larger grid or a shorter range",
+            fmt::format("needs a margin around the contact: at the edge of the grid the tension is "
+                        "{:.2g} of the largest; use a larger grid or a shorter range",
                         held / largest()));
   }
 
-  // Tension of the first contact, from the gap of one without adhesion or from first touch.
+  // Tension of the first contact solve: the given start; without one, the tension of the gaps at
+  // first touch if the prescribed load does not press the bodies together, otherwise zero, which
+  // gives a contact without adhesion.
   void start() {
     const Grid2D& grid = surface_.grid;
     require_memory(grid,
@@ -284,8 +292,8 @@ class AdhesiveSolve {
     state_.cells_in_process_zone = salebra::cells_in_process_zone(adhesion_, grid, modulus_);
     raised_ = {grid, Field(surface_.heights.rows(), grid.ny), surface_.periodic, surface_.origin,
                surface_.communicator};
-    compliance_.emplace(
-        normal_compliance<double>(grid, modulus_, options_.contact.boundary, surface_.communicator));
+    compliance_.emplace(normal_compliance<double>(grid, modulus_, options_.contact.boundary,
+                                                  surface_.communicator));
     if (options_.start_tension) {
       tension_ = *options_.start_tension;
     } else if (point_.load_given() && !(point_.value > 0)) {
@@ -298,7 +306,8 @@ class AdhesiveSolve {
     next_ = tension_;
   }
 
-  // A gap that is wrong by e·h_rms changes the tension by that over the range.
+  // An error e·h_rms of the gap changes the tension by up to e·h_rms/range times the maximum
+  // tension.
   double inner_tolerance(double residual) const {
     const double wanted = inner_share * std::max(residual, options_.tolerance);
     const double change = largest() * rms_raised_ / adhesion_.range;
@@ -311,8 +320,8 @@ class AdhesiveSolve {
   }
   double progress(double residual) const { return progress_of(residual, options_.tolerance); }
 
-  // The contact of the raised heights under the target and the tension. False: the iteration is at
-  // its end.
+  // Solves a contact without adhesion for the heights raised by the tension, with the prescribed
+  // pressure or mean gap. Returns false if the iteration over the tension ends here.
   bool press_under_tension(double tolerance) {
     ++state_.outer_iterations;
     compliance_->apply(tension_.data(), raised_.heights.data());
@@ -332,7 +341,7 @@ class AdhesiveSolve {
       }
       inner_point = at_pressure(load);
     } else {
-      // The heights are raised and count from first touch on.
+      // Indentation of the raised heights, counted from the plane height at which they first touch.
       const double depth = periodic_ ? sums.highest - highest_ - mean - point_.value
                                      : point_.value + sums.highest - highest_;
       if (!(depth > 0)) {
@@ -356,7 +365,7 @@ class AdhesiveSolve {
     state_.iterations += before.iterations;
     state_.fft_count += before.fft_count;
     state_.multilevel_count += before.multilevel_count;
-    // A contact that stalls is as sharp as rounding lets it be.
+    // A contact solve that has stalled is as accurate as round-off permits.
     return state_.converged() || state_.termination == Termination::stalled;
   }
 
@@ -378,7 +387,7 @@ class AdhesiveSolve {
            cells_;
   }
 
-  // Nothing touches: the highest of the raised heights is −level off the plane.
+  // No cell touches (depth <= 0): the plane lies −depth above the highest of the raised heights.
   void float_above(double depth, double highest_raised) {
     const Index nx = raised_.heights.rows(), ny = raised_.heights.cols();
     state_.contact_pressure = Field::Zero(nx, ny);
@@ -401,12 +410,13 @@ class AdhesiveSolve {
   }
 
   struct Measure {
-    double energy = 0;            // per area, what falls with each contact
-    double max_change = 0;    // of the tension, over the cells with a gap
-    double contact_pressure = 0;  // mean of p
+    double energy = 0;            // per area; falls with each step
+    double max_change = 0;        // of the tension, over cells with a gap
+    double contact_pressure = 0;  // mean contact pressure
   };
 
-  // φ'(g) becomes the next tension.
+  // Measures energy, residual and loads of the state, and writes the next tension φ'(g), the
+  // derivative of the adhesive energy at the gap g, into next_.
   Measure measure() {
     struct Sums {
       double work = 0, displacement = 0, adhesive = 0, contact = 0, tension = 0, gap = 0;
@@ -426,13 +436,15 @@ class AdhesiveSolve {
                for (Index k = begin * columns; k < end * columns; ++k) {
                  double &p = state_.contact_pressure.data()[k], &t = tension_.data()[k];
                  const double gap = p > 0 ? 0.0 : std::max(0.0, state_.gap.data()[k]);
-                 // next_ is still Gp: what of the raised heights is above the body has sunk in.
+                 // next_ still holds the displacement Gp by the pressure: where the raised heights
+                 // lie above the displaced body, this part of the height has sunk in plastically.
                  const double sunk =
                      p < bound() ? 0.0
                                  : std::max(0.0, raised_.heights.data()[k] - highest_raised_ +
                                                      state_.indentation - next_.data()[k]);
-                 // Where surfaces touch, a tension that is not yet that of g = 0 is missing in p
-                 // alone.
+                 // Where the surfaces touch, the tension becomes that of gap 0, and the pressure p
+                 // changes by the same amount: the difference of p and the tension is right
+                 // already.
                  if (p > 0) {
                    p += top - t;
                    t = top;
@@ -464,7 +476,8 @@ class AdhesiveSolve {
     const double pressure = (total.contact - total.tension) / cells_;
     const double mean_gap = total.gap / cells_, sunk = total.sunk / cells_;
     const double plastic = yields() ? options_.contact.hardness * sunk : 0;
-    // u = displaced + offset; of a free contact, the plane stands at the indentation.
+    // The displacement is u = displaced + offset; in a free contact the offset is the indentation,
+    // which is the height of the plane.
     const double offset = periodic_ ? -total.displacement / cells_ : indentation();
     const double elastic = 0.5 * (total.work / cells_ + offset * pressure);
     const double adhesive = total.adhesive / cells_;
@@ -483,10 +496,11 @@ class AdhesiveSolve {
             total.contact / cells_};
   }
 
-  // In free contact the indentation counts from first touch of the surface itself.
+  // In a free contact the indentation counts from first touch of the surface as given, not raised
+  // by the tension.
   double indentation() {
     if (!point_.load_given()) return point_.value;
-    // state_.indentation is that of the raised heights until measure() replaces it.
+    // state_.indentation counts from first touch of the raised heights until measure() replaces it.
     return state_.indentation - highest_raised_ + highest_;
   }
 
@@ -563,12 +577,11 @@ double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, doubl
 }
 
 std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
-                                                 double contact_modulus) {
+                                                   double contact_modulus) {
   const double zone = cells_in_process_zone(adhesion, grid, contact_modulus);
   if (zone >= coarse_zone) return {};
   return fmt::format(
-      "the process zone of adhesion has {:.2g} cells, and from 3.3 of them the cells do not "
-      "matter; "
+      "the process zone of adhesion has {:.2g} cells; below 3.3 the cells influence the result; "
       "use a range of {:.3g} m or cells of {:.3g} m",
       zone, adhesion.range * std::sqrt(coarse_zone / zone),
       std::max(grid.dx(), grid.dy()) * zone / coarse_zone);
@@ -577,7 +590,8 @@ std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, con
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options) {
-  collectively(surface.communicator, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
+  collectively(surface.communicator,
+               [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
   return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).run();
 }
 

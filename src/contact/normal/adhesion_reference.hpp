@@ -5,7 +5,8 @@
 
 namespace salebra::detail {
 
-/// What the tolerance of an adhesive contact is relative to, max(E*·rms slope, φ'(0)), Pa. Collective.
+/// Unit of the tolerance of an adhesive contact, Pa: the larger of E* times the rms slope, and the
+/// maximum tension φ'(0) of the adhesion. Collective.
 double adhesion_reference(const Surface& surface, double contact_modulus, const Adhesion& adhesion);
 
 }  // namespace salebra::detail

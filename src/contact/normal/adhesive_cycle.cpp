@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading and unloading of adhesive contacts, each from the state before.
+// Loading and unloading of adhesive contacts, each solve started from the previous state.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -10,9 +10,10 @@
 namespace salebra {
 namespace {
 
-// The branches of a cycle meet where their forces differ by less than this part of the largest.
+// The loading and unloading branches of a cycle meet if their forces differ by less than this
+// fraction of the maximum force.
 constexpr double meets = 1e-3;
-constexpr int bisections = 6;  // of a pull that doubled: to 2 %
+constexpr int bisections = 6;  // after doubling has bracketed the maximum pull: to 2 %
 
 class CycleRun {
  public:
@@ -22,9 +23,9 @@ class CycleRun {
     if (options.contact.start_tension) tension_ = *options.contact.start_tension;
   }
 
-  /// False where the run ends here.
+  /// Solves one operating point and appends it to `branch`. Returns false if the run ends here.
   bool press_at(const OperatingPoint& point, bool unloading,
-             std::vector<AdhesiveContactState>& branch) {
+                std::vector<AdhesiveContactState>& branch) {
     AdhesiveContactState state = solve(point);
     const bool converged = state.converged();
     if (converged && !state.detached) follow(state);
@@ -32,7 +33,8 @@ class CycleRun {
     return converged;
   }
 
-  /// The largest pull that the contact bears, Pa. Its states are of larger and larger pulls.
+  /// Returns the maximum pull that the contact bears, Pa. The states appended to `branch` have
+  /// increasing pulls.
   double pull_off(double first, std::vector<AdhesiveContactState>& branch) {
     double held = 0, parts = 0, pull = 0;
     for (int halvings = 0; halvings <= bisections;) {
@@ -76,7 +78,7 @@ class CycleRun {
   Field tension_;
 };
 
-/// ∫F dδ over every stride-th state and the last.
+/// Work ∫F dδ by the trapezium rule over every stride-th state of a branch and the last one.
 double work_along(const std::vector<AdhesiveContactState>& branch, std::size_t stride) {
   double work = 0;
   for (std::size_t k = 0; k + 1 < branch.size();) {
@@ -88,8 +90,10 @@ double work_along(const std::vector<AdhesiveContactState>& branch, std::size_t s
   return work;
 }
 
-/// Surfaces snap in and off somewhere between two positions, and the trapezium takes the middle: the
-/// two largest errors of one, of the difference of the branches.
+/// Error of the work of a cycle by snapping. A surface snaps into or out of contact somewhere
+/// between two operating points, while the trapezium rule takes the middle. Each interval between
+/// two operating points thus has an error, from the change of the difference of the forces in
+/// loading and unloading; returns the sum of the two largest of these errors.
 double error_of_snaps(const AdhesiveCycle& cycle) {
   const auto& in = cycle.loading;
   const std::size_t last = in.size() - 1;
@@ -107,7 +111,7 @@ double error_of_snaps(const AdhesiveCycle& cycle) {
   return largest + second;
 }
 
-/// ∮ of a force that is wrong by `force` times the residual.
+/// Error of the work ∫F dδ of a branch if the force is wrong by `force` times the residual.
 double error_of_tolerance(const std::vector<AdhesiveContactState>& branch, double force) {
   double error = 0;
   for (std::size_t k = 0; k + 1 < branch.size(); ++k)
@@ -116,8 +120,9 @@ double error_of_tolerance(const std::vector<AdhesiveContactState>& branch, doubl
   return error;
 }
 
-/// force_of_residual: by which a tension that is wrong everywhere by the unit of residuals changes that of a
-/// state, N.
+/// Evaluates the closed cycle: its work, its reversible amplitude and their errors.
+/// force_of_residual: error of the force, N, of a state with residual 1, whose tension is wrong
+/// everywhere by one unit of the tolerance.
 void measure(AdhesiveCycle& cycle, double force_of_residual) {
   const auto force = [](const AdhesiveContactState& state) { return std::abs(state.force); };
   double largest = force(std::ranges::max(cycle.loading, {}, force));
@@ -126,7 +131,8 @@ void measure(AdhesiveCycle& cycle, double force_of_residual) {
   const auto distance_to = [&](std::size_t k) {
     return (cycle.loading[last].indentation - cycle.loading[k].indentation) / 2;
   };
-  // Far in, the load is many times the pull: what pulls decides what is seen.
+  // Deep contacts have loads of many times the maximum pull, so the threshold for a difference of
+  // the branches is relative to the pull.
   const double pull = -std::ranges::min(cycle.unloading, {}, &AdhesiveContactState::force).force;
   const double seen = meets * (pull > 0 ? pull : largest);
   for (std::size_t k = last; k-- > 0;)
@@ -163,7 +169,7 @@ bool AdhesiveCycle::converged() const {
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
                              const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options) {
-  require_that(!points.empty(), "operating points", "none given; name at least one");
+  require_that(!points.empty(), "positions", "not given; give at least one");
   AdhesiveCycle cycle;
   CycleRun run(surface, contact_modulus, adhesion, options);
   for (const OperatingPoint& point : points)
@@ -176,8 +182,8 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
   if (loosest.load_given()) {
     const bool by_force = loosest.control == ControlQuantity::normal_force;
     const double load = by_force ? loosest.value / surface.grid.area() : loosest.value;
-    cycle.pull_off_pressure = run.pull_off(
-        std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle.unloading);
+    cycle.pull_off_pressure =
+        run.pull_off(std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle.unloading);
     return cycle;
   }
   const auto least =

@@ -10,7 +10,8 @@
 namespace salebra::detail {
 namespace {
 
-// Directions of which the residuals tell less apart than this are left alone.
+// Relative amount added to the diagonal of the Gram matrix of the steps: it suppresses combinations
+// of steps that the residuals cannot distinguish.
 constexpr double ridge = 1e-13;
 
 }  // namespace
@@ -29,7 +30,7 @@ Field Anderson::extrapolate(const Field& x, const Field& f) {
   if (steps_.empty()) return x + f;
   const std::size_t count = steps_.size();
   const Index columns = f.cols();
-  // Products of the newest difference with all of them, and of all of them with f.
+  // Scalar products of the newest step of f with all kept steps of f, and of all kept steps with f.
   const std::vector<double> sums =
       parallel::sum_blocks(rows_, 2 * count, [&](Index begin, Index end, std::span<double> all) {
         const Rows& newest = steps_.back().f;

@@ -6,22 +6,22 @@
 
 namespace salebra::detail {
 
-// Extrapolation of a fixed-point iteration x → x + f(x) from its last steps: the combination of them
-// with the least residual [Anderson (1965)]. Fields hold the rows of this process; calls are
+// Extrapolates a fixed-point iteration x → x + f(x) to the combination of its last steps whose
+// residual f is smallest [Anderson (1965)]. Fields hold the rows of this process; calls are
 // collective, and results have the same bits for every number of processes and threads.
 class Anderson {
  public:
-  // depth: differences that are kept, each in single precision.
+  // depth: number of earlier steps kept, in single precision.
   Anderson(const RowPartition& rows, std::size_t depth) : rows_(rows), depth_(depth) {}
 
-  // The next x, or x + f where there is no step before. Keeps the pair.
+  // Returns the next x, or x + f if there is no earlier step. Keeps x and f for the next call.
   Field extrapolate(const Field& x, const Field& f);
   void forget() { steps_.clear(); }
 
  private:
   using Rows = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   struct Step {
-    Rows x, f;  // differences of the pairs at its ends
+    Rows x, f;  // changes of x and f over one step
   };
   RowPartition rows_;
   std::size_t depth_;

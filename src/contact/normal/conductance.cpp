@@ -10,11 +10,11 @@ namespace {
 
 double conductance_of(double normal_stiffness, double contact_modulus, double resistance,
                       std::string_view field) {
-  // NaN is a stiffness that is not known, and its conductance is not known either.
+  // NaN means an unknown stiffness, and its conductance is NaN too.
   require(!(normal_stiffness < 0), "normal_stiffness", normal_stiffness, "must be >= 0");
   require_positive(contact_modulus, "contact_modulus");
   require(resistance > 0 && resistance < std::numeric_limits<double>::infinity(), field, resistance,
-          "of one body or both must limit the current");
+          "must be finite, and > 0 in at least one body");
   return 2 * normal_stiffness / (contact_modulus * resistance);
 }
 
@@ -43,7 +43,7 @@ Conductances conductances(double normal_stiffness_per_area, double contact_modul
   Conductances found;
   const auto ask = [&](const char* name, const std::vector<double>& bodies, auto conductance) {
     require(bodies.size() <= 2, name, bodies.size(),
-            "values are too many; give one for both bodies, or one for each");
+            "values given; give one for both bodies, or one for each");
     return bodies.empty() ? Conductances().thermal_conductance
                           : conductance(normal_stiffness_per_area, contact_modulus, bodies.front(),
                                         bodies.back());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complementarity error of a contact solution over all cells, and its mean gap or level.
+// Complementarity error of a contact solution over all cells, and the height of its contact plane.
 #include "contact_residual.hpp"
 
 #include <algorithm>
@@ -10,9 +10,11 @@ namespace salebra::detail {
 namespace {
 
 struct DenseSums {
-  double min_gap = std::numeric_limits<double>::infinity();  // least g where p is below its bound
-  double pressure = 0;                                         // Σp
-  double free_count = 0, free_gap = 0;  // cells with 0 < p < bound, and Σg over them
+  // Minimum of the gap g (not relative to the plane) over the cells whose pressure is below its
+  // bound.
+  double min_gap = std::numeric_limits<double>::infinity();
+  double pressure = 0;                  // Σp
+  double free_count = 0, free_gap = 0;  // number of cells with 0 < p < bound, and Σg over them
 };
 
 }  // namespace

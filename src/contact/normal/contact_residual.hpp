@@ -10,15 +10,16 @@
 
 namespace salebra::detail {
 
-// Heights counted from a zero near them, so that a large mean costs no digits of the gap.
+// Heights, counted from a reference height near them, so that a large mean does not cost digits of
+// the gap.
 struct Heights {
   const double* values = nullptr;
   double zero = 0;
   double operator[](Index k) const { return values[k] - zero; }
 };
 
-// The operating point in the units of the solver: a mean pressure, or as indentation the height λ of
-// the contact plane (gap = g − λ with g = Gp − h). No cell carries more than the bound.
+// The prescribed quantity: the mean pressure, or the height λ of the contact plane, where the gap
+// is Gp − h − λ with the displacement Gp by the pressures and the heights h.
 struct ScaledOperatingPoint : OperatingPoint {
   ScaledOperatingPoint(ControlQuantity held, double at,
                        double largest = std::numeric_limits<double>::infinity())
@@ -26,65 +27,67 @@ struct ScaledOperatingPoint : OperatingPoint {
   double bound;
 };
 
-// Part of the transform's points that may be in tiles in use where the multilevel kernel takes the
-// place of transforms; 0: it never does. Its work goes with the tiles, that of a transform does
-// not. No value: what is faster, as measured (active_set_tiles.cpp).
+// The multilevel kernel replaces Fourier transforms if the tiles in use cover at most this fraction
+// of the transform's points; 0: never. The work of the multilevel kernel grows with the number of
+// tiles, that of a transform does not. No value: the faster one, as measured
+// (active_set_tiles.cpp).
 using MultilevelShare = std::optional<double>;
 
 struct PunchLimits {
-  // Stop when the load grew by less than this part of itself in two iterations running. The load is
-  // a maximum over q: its error is the square of the error of q.
+  // Stop when the relative growth of the load was below this value in two successive iterations.
+  // The load is a maximum over the pressures q of the punch, so its error is the square of the
+  // error of q.
   double relative_gain = 1e-11;
   int max_iterations = 1000;
   std::function<bool(int iteration)> keep_going = {};
   MultilevelShare multilevel_share = {};
-  // On the multilevel kernel a round of CG ends, and the residual is computed afresh, when a step gains less
-  // than this part of what the round gained.
+  // On the multilevel kernel, CG works in rounds: a round ends, and the residual is computed anew,
+  // when a step gains less than this fraction of the gain of the round.
   double round_ends = 1e-4;
 };
 
 struct PunchOutcome {
   double load = 0;
-  double residual = 0;  // rms of 1 − Gq over the punch
+  double residual = 0;  // rms over the punch of 1 − displacement
   int iterations = 0;
   int fft_count = 0;
   int multilevel_count = 0;
-  double fft_seconds = 0, multilevel_seconds = 0;  // for profiles
+  double fft_seconds = 0, multilevel_seconds = 0;  // reported for performance measurements
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
 };
 
 struct ActiveSetLimits {
-  double tolerance = 1e-10;  // of e_c
+  double tolerance = 1e-10;  // upper bound of the complementarity error e_c
   int max_iterations = 1000;
-  bool exact =
-      // accept on a residual in double precision; false: a start for a finer level, a few refreshes
-      // will do
-      true;
+  // true: accept a result only with a residual in double precision. false: the result only starts a
+  // finer grid, and few computations of the residual suffice.
+  bool exact = true;
   std::function<bool(int iteration, double residual)> keep_going = {};
-  // After an iteration where the root says that one is due, p holds the present pressure within its
-  // bounds while take_checkpoint() runs, which may change it.
+  // If the root process answers checkpoint_due() with true after an iteration, take_checkpoint()
+  // runs. During this call p holds the current pressures within their bounds, and take_checkpoint()
+  // may change them.
   std::function<bool()> checkpoint_due = {};
   std::function<void()> take_checkpoint = {};
-  // When e_c has not halved in this many iterations, CG restarts with another threshold, and at
-  // last gives way to gradient_projection().
+  // If the complementarity error e_c does not halve within this many iterations, CG restarts with
+  // another threshold, and finally gradient_projection() takes over.
   int patience = 40;
   MultilevelShare multilevel_share = {};
-  // About where the contact plane will be, where it is not prescribed; it saves work and changes no
-  // result.
+  // Estimate of the height of the contact plane if this height is not prescribed. It saves work and
+  // changes no result.
   std::optional<double> expected_plane_height = {};
 };
 
 struct ActiveSetOutcome {
-  double residual = std::numeric_limits<double>::infinity();  // e_c, over all cells
+  double residual = std::numeric_limits<double>::infinity();  // e_c over all cells
   double plane_height = 0;
   int iterations = 0;
   int fft_count = 0;
-  int exact_fft_count = 0;   // of them in double precision, where the inner loop is not
+  int exact_fft_count = 0;   // transforms in double precision, if the inner loop is in single
   int multilevel_count = 0;  // applications of the multilevel kernel in place of a transform
-  // Profiles read these: seconds in transforms, of them in exact ones, on the multilevel kernel, and the cells
-  // of the tiles summed over the iterations.
+  // For performance measurements: seconds in all transforms, in those in double precision, and on
+  // the multilevel kernel, and the number of cells in tiles, summed over the iterations.
   double fft_seconds = 0, exact_fft_seconds = 0, multilevel_seconds = 0;
   double active_cells = 0, resting_cells = 0;
   Termination termination = Termination::iteration_limit;
@@ -92,16 +95,18 @@ struct ActiveSetOutcome {
   bool converged() const { return termination == Termination::converged; }
 };
 
-// Measures over all cells where the contact plane is, and how far p and g are from complementary.
+// Height of the contact plane and complementarity error of the pressures p and the gap g, over all
+// cells.
 struct ContactResidual {
-  double plane_height = 0;     // mean g of the cells with 0 < p < bound, or the level prescribed
-  double residual = 0;  // e_c
+  double plane_height = 0;  // mean g of the cells with 0 < p < bound, or the prescribed height
+  double residual = 0;      // complementarity error e_c
 };
 
-// e_c = Σp|g − plane|/(Σp·h_rms), with the plane at the least g (load given) or at the level given;
-// a gap below the latter adds its depth. Saturated cells may lie below the plane, so they count
-// only where they stand above it. p and g are those of the rows of this process, the result that of
-// all. Collective.
+// Complementarity error e_c = Σp|g − plane|/(Σp·h_rms), where g is the displacement by the
+// pressures p minus the height. The plane lies at the minimum of g if the load is given, otherwise
+// at the given height; then a cell below the plane adds its depth to e_c. Saturated cells may lie
+// below the plane, so they count only if they lie above it. p and g hold the rows of this process;
+// the result is that of all processes. Collective.
 ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
                                  const ScaledOperatingPoint& target, double rms_height,
                                  const double* p, const double* g);

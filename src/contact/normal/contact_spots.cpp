@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact spots of a pressure field: areas, forces, perimeter, and the area corrected for it.
+// Contact spots of a pressure field: areas, forces, perimeter, and the area corrected by means of
+// the perimeter.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,7 +17,7 @@
 namespace salebra {
 namespace {
 
-/// Disjoint sets of numbers 0, 1, …; the least number of a set is its root.
+/// Disjoint sets of the numbers 0, 1, 2 and so on; the smallest number of a set is its root.
 class Sets {
  public:
   void add() { parent_.push_back(static_cast<Index>(parent_.size())); }
@@ -40,20 +41,21 @@ class Sets {
 
 constexpr Index none = -1;
 
-/// Contact cells of a row that follow one another: columns begin … end − 1, of one part of the
-/// contact.
+/// A run of successive contact cells of a row, the columns begin … end − 1. All of them belong to
+/// the same connected part of the contact.
 struct Run {
   Index begin = 0, end = 0, part = 0;
 };
 
-/// What a process has found in its rows. Parts are its connected cells, in the order of their first
-/// cells.
+/// What one process finds in its rows. Parts are sets of connected contact cells, in the order of
+/// their first cells.
 struct Found {
   Index parts = 0, edges_across_x = 0, edges_across_y = 0;
-  std::vector<Run> first, last;    // of the first and of the last row
-  std::vector<Index> part_of;      // each contact cell, row by row
-  std::vector<double> loads;       // the same
-  std::vector<std::size_t> cells;  // before each block of rows, and in all
+  std::vector<Run> first, last;    // runs of the process's first and last row
+  std::vector<Index> part_of;      // part of each contact cell, row by row
+  std::vector<double> loads;       // pressure of each contact cell
+  std::vector<std::size_t> cells;  // number of contact cells before each block of rows; last: of
+                                   // all
 };
 
 std::vector<Run> runs_of(const std::vector<Index>& row, const std::vector<Index>& part_of) {
@@ -69,8 +71,8 @@ std::vector<Run> runs_of(const std::vector<Index>& row, const std::vector<Index>
 }
 
 Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
-  // Contact cells are numbered row by row. Each row is compared with the one before it; an edge of
-  // the contact lies between unlike cells.
+  // Contact cells are numbered row by row. Each row is compared with the previous one; an edge of
+  // the contact lies between a contact cell and a cell out of contact.
   using Row = std::vector<Index>;  // the number of each cell, or none
   Found found;
   Sets sets;
@@ -109,7 +111,8 @@ Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
   }
   found.cells.push_back(found.loads.size());
 
-  // A root has the least number of its cells.
+  // The root of a set is its first cell, so the part of the root is known before those of its other
+  // cells.
   for (Index cell = 0; cell < static_cast<Index>(found.loads.size()); ++cell) {
     const Index root = sets.root(cell);
     found.part_of.push_back(root == cell ? found.parts++
@@ -120,9 +123,10 @@ Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
   return found;
 }
 
-/// Lists of all processes, one after the other.
+/// Gathers the lists of all processes, one list for each process.
 template <class Item>
-std::vector<std::vector<Item>> gathered(const Communicator& communicator, const std::vector<Item>& mine) {
+std::vector<std::vector<Item>> gathered(const Communicator& communicator,
+                                        const std::vector<Item>& mine) {
   static_assert(std::is_trivially_copyable_v<Item>);
   std::vector<std::vector<Item>> all;
   for (const std::string& bytes : communicator.gather_all(
@@ -133,7 +137,8 @@ std::vector<std::vector<Item>> gathered(const Communicator& communicator, const 
   return all;
 }
 
-/// Edges between two rows; join(first, second) the parts that touch across them.
+/// Counts the edges of the contact between two neighbouring rows, and calls join(first part, second
+/// part) for parts that touch across the boundary of the rows.
 template <class Join>
 Index compare_runs(const std::vector<Run>& first, const std::vector<Run>& second,
                    const Join& join) {
@@ -153,10 +158,11 @@ Index compare_runs(const std::vector<Run>& first, const std::vector<Run>& second
 /// The parts of all processes, joined to spots in the order of their first cells.
 struct Joined {
   Index edges_across_x = 0, edges_across_y = 0, spots = 0;
-  std::vector<Index> spot_of;  // each part of this process
+  std::vector<Index> spot_of;  // spot of each part of this process
 };
 
-/// Every process joins the parts of all of them by the runs of cells at the edges of their rows.
+/// Every process joins the parts of all processes to spots, by the runs of cells in the first and
+/// last row of each process.
 Joined join_parts(const Found& mine, const RowPartition& rows, bool periodic) {
   const Communicator& communicator = rows.communicator();
   struct Counts {
@@ -167,7 +173,7 @@ Joined join_parts(const Found& mine, const RowPartition& rows, bool periodic) {
   const auto first = gathered(communicator, mine.first), last = gathered(communicator, mine.last);
   Joined joined;
   Sets sets;
-  std::vector<Index> before{0};  // parts of the processes before each
+  std::vector<Index> before{0};  // number of parts in all earlier processes
   Index in_use = 0;
   for (int rank = 0; rank < communicator.size(); ++rank) {
     const Counts& of_rank = counts[static_cast<std::size_t>(rank)].front();
@@ -175,7 +181,7 @@ Joined join_parts(const Found& mine, const RowPartition& rows, bool periodic) {
     before.push_back(before.back() + of_rank.parts);
     joined.edges_across_x += of_rank.edges_across_x;
     joined.edges_across_y += of_rank.edges_across_y;
-    in_use += rows.end_of(rank) > rows.begin_of(rank);  // the last ones have no rows
+    in_use += rows.end_of(rank) > rows.begin_of(rank);  // processes without rows come last
   }
   const auto meet = [&](const std::vector<Run>& a, Index rank_of_a, const std::vector<Run>& b,
                         Index rank_of_b) {
@@ -206,7 +212,7 @@ Joined join_parts(const Found& mine, const RowPartition& rows, bool periodic) {
   return joined;
 }
 
-/// What a block of rows has of a spot.
+/// Cells and load of a spot within one block of rows.
 struct Piece {
   Index spot = 0, cells = 0;
   double load = 0;
@@ -247,7 +253,8 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
   });
 
   const Joined joined = join_parts(mine, rows, periodic);
-  // Forces are added within each block of rows, then over the blocks.
+  // Forces are added within each block of rows, then over the blocks, so that their bits do not
+  // depend on the number of processes.
   ContactSpots result;
   result.spots.resize(static_cast<std::size_t>(joined.spots));
   std::vector<Index> cells_of(result.spots.size(), 0);
@@ -270,7 +277,7 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
   result.perimeter_along_x = static_cast<double>(joined.edges_across_y) * grid.dx();
   result.perimeter =
       static_cast<double>(joined.edges_across_x) * grid.dy() + result.perimeter_along_x;
-  // Every edge takes its share of one cell.
+  // Every edge reduces the area by the same fraction of a cell.
   const double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24 *
                         static_cast<double>(joined.edges_across_x + joined.edges_across_y) / points;
   result.corrected_area_fraction = std::max(0.0, result.contact_area_fraction - excess);

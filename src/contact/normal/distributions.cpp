@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Densities of the pressures and gaps of a contact.
+// Probability densities of the pressures and gaps of a contact.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -10,7 +10,8 @@
 namespace salebra {
 namespace {
 
-/// Bins of one quantity: value(k) of the cells of this process, negative where a cell has none.
+/// Histogram of one quantity. value(k) is the quantity in cell k of this process, or negative if it
+/// is not defined in the cell.
 struct Bins {
   std::vector<double> middle, density;
   double width = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Residual surface of a first loading with a hardness.
+// Residual surface after a first loading with a limit of the pressure, the hardness.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 namespace salebra {
 namespace {
 
-/// Lowers the heights by w and returns what was done.
+/// Lowers each cell that yielded by its plastic depth, and returns the yielded area, the mean and
+/// the maximum plastic depth.
 FirstLoading sink_in(Field& heights, const Field& displacement, const NormalContactState& state,
                      double bound) {
   const double highest = heights.maxCoeff();
@@ -32,7 +33,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
              for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
                if (state.contact_pressure.data()[k] < bound) continue;
                double& height = heights.data()[k];
-               // Within the solver's tolerance, a saturated cell may stand off the plane.
+               // A saturated cell may lie above the contact plane by the tolerance of the solver.
                const double depth =
                    std::max(0.0, height - highest + state.indentation - displacement.data()[k]);
                height -= depth;
@@ -54,12 +55,13 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
           .max_plastic_depth = total.deepest};
 }
 
-// Part of the load by which the oscillation passes the hardness at most.
+// The largest load of the oscillation may exceed that of the first loading by at most this
+// fraction.
 constexpr double load_tolerance = 1e-3;
 constexpr int max_loadings = 20;
 
-/// The highest load of an oscillation about a contact of the residual surface, without further
-/// flow; none where the contact is full.
+/// Returns the contact of the residual surface at the highest load of an oscillation about the
+/// nominal pressure, without further plastic flow; nothing if this contact is full.
 std::optional<NormalContactState> at_top(const Surface& residual, double contact_modulus,
                                          double nominal_pressure, double normal_amplitude,
                                          const Field& start, NormalContactOptions options) {
@@ -80,7 +82,8 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
 
 namespace {
 
-// Where p reaches the bound the body is displaced by `traction`, and the rest has sunk in.
+// The pressures `traction` displace the body elastically; where the pressure reaches the bound, the
+// rest of the depth is plastic.
 ResidualSurface residual_of(Surface surface, double contact_modulus,
                             const NormalContactState& state, const Field& traction, double bound,
                             Boundary boundary) {

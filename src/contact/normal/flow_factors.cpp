@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Percolation of a gap and its pressure flow factors.
+// Percolation of the fluid through a gap, and its pressure flow factors.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,12 +19,12 @@ namespace {
 using detail::FaceConductances;
 using detail::FlowMultigrid;
 
-// Narrower cells, in units of the mean gap, are closed: solvers of contacts do not know such gaps,
-// and their cubes leave the range of single precision.
+// Cells with a gap below this, in units of the mean gap, count as closed: contact solvers do not
+// resolve such gaps, and the cubes of such gaps leave the range of single precision.
 constexpr double min_open = 1e-9;
 
-// Where so little is left of what the pressure field dissipated at the last look, its difference to
-// what the iteration gained has lost too many digits.
+// CG tracks the dissipation of the flow by subtracting the gain of each iteration. When it has
+// fallen to this fraction of its last computed value, the difference has lost too many digits.
 constexpr double worth_a_refresh = 0.05;
 
 struct Directions {
@@ -32,8 +32,8 @@ struct Directions {
   bool any() const { return x || y; }
 };
 
-/// Connected parts of the open cells, and round which periods they lead. A part that meets itself
-/// across the border, shifted by a period, leads round it.
+/// Connected parts of the open cells, and the axes along which each part spans the period. A part
+/// spans the period if it meets its own periodic image, shifted by that period.
 class OpenParts {
  public:
   explicit OpenParts(const Field& opening)
@@ -65,11 +65,11 @@ class OpenParts {
  private:
   static constexpr std::int32_t none = -1;
   struct Shift {
-    std::int32_t x = 0, y = 0;  // periods
+    std::int32_t x = 0, y = 0;  // shift in numbers of periods
   };
   struct Part {
     std::int32_t parent = 0;
-    Shift shift;  // of the parent's copy that this part is joined to
+    Shift shift;  // from this part's copy of the parent
     Directions leads_round;
   };
   struct Root {
@@ -91,13 +91,14 @@ class OpenParts {
       Part& here = parts_[index(root.part)];
       if (here.parent == root.part) return root;
       const Part& above = parts_[index(here.parent)];
-      // The way to the grandparent becomes the way up, which halves the path. A root has no shift.
+      // Pointing to the parent of the parent halves the path to the root. A root has no shift.
       here.shift = {here.shift.x + above.shift.x, here.shift.y + above.shift.y};
       here.parent = above.parent;
       root = {here.parent, {root.shift.x + here.shift.x, root.shift.y + here.shift.y}};
     }
   }
-  // The copy of `second` that is shifted so touches `first`.
+  // Joins the part `first` to the periodic image of `second` that it touches, which is shifted by
+  // `shift` periods.
   void join(std::int32_t first, std::int32_t second, const Shift& shift) {
     const Root a = root_of(first), b = root_of(second);
     const Shift between{a.shift.x - b.shift.x - shift.x, a.shift.y - b.shift.y - shift.y};
@@ -116,7 +117,7 @@ class OpenParts {
   }
 
   Index columns_;
-  std::vector<std::int32_t> part_of_;  // of each cell; none: closed
+  std::vector<std::int32_t> part_of_;  // part of each cell; none: closed
   std::vector<Part> parts_;
 };
 
@@ -133,8 +134,9 @@ double sum_cells(const Field& field, const Body& body) {
       field.size());
 }
 
-/// b with ⟨(s − b)/(s + b)⟩ = 0, for s >= 0: 1 − 2⟨b/(s + b)⟩ falls with b. By bisection of its
-/// logarithm and Newton's method in it.
+/// Solves ⟨(s − b)/(s + b)⟩ = 0 for the effective conductance b, where ⟨⟩ is the mean over the
+/// cells and s >= 0 the conductance of a cell. The mean is 1 − 2⟨b/(s + b)⟩ and falls with b;
+/// Newton's method in ln b is safeguarded by bisection.
 double effective_medium(const Field& conductance, double mean) {
   const double cells = static_cast<double>(conductance.size());
   const double closed = sum_cells(conductance, [](double s) { return s > 0 ? 0.0 : 1.0; });
@@ -142,7 +144,7 @@ double effective_medium(const Field& conductance, double mean) {
   double low = -800, high = std::log(mean), point = high;
   for (int step = 0; step < 200 && high - low > 1e-14; ++step) {
     const double b = std::exp(point);
-    // ⟨b/(s + b)⟩ and its derivative by ln b
+    // ⟨b/(s + b)⟩ and its derivative with respect to ln b, with the mean ⟨⟩ over the cells.
     const double part = sum_cells(conductance, [&](double s) { return b / (s + b); }) / cells;
     const double slope =
         sum_cells(conductance, [&](double s) { return b * s / ((s + b) * (s + b)); }) / cells;
@@ -154,21 +156,23 @@ double effective_medium(const Field& conductance, double mean) {
   return std::exp(point);
 }
 
-/// Flow under a unit gradient.
+/// Flow under a pressure gradient of one per cell.
 struct Flow {
   double factor = 0, residual = 0;
   int iterations = 0;
   Termination termination = Termination::iteration_limit;
 };
 
-/// The operator, and sums over pairs of rows of cells.
+/// Reynolds' equation of the flow on a grid of face conductances, and its solver.
 class Reynolds {
  public:
   Reynolds(const FaceConductances& faces, FlowMultigrid& multigrid)
       : faces_(faces), multigrid_(multigrid) {}
 
-  /// The mean of T(1 + δp)² over the cells, by conjugate gradients: its least value is the flow,
-  /// and its error the square of that of p. A unit gradient in units of cells, along x or y.
+  /// Computes the flow under a pressure gradient of one per cell along x or y. The flow is the
+  /// minimum over the pressures p of the mean of T(1 + δp)² over the cells, where T is the
+  /// conductance of a face and δp the pressure difference across it. It is found by conjugate
+  /// gradients, and its error is the square of the error of p.
   Flow flow(bool along_x, const FlowOptions& options, int iterations_before) {
     const double cells = static_cast<double>(faces_.x.size());
     const auto like = [&] { return uninitialised_field(faces_.x.rows(), faces_.x.cols()); };
@@ -196,7 +200,7 @@ class Reynolds {
         result.termination = Termination::interrupted;
         break;
       }
-      // Flexible: the preconditioner is another operator at each call.
+      // Flexible CG, because the preconditioner changes from call to call.
       const double beta = result.iterations > 0 ? -last_step * overlap / last_product : 0;
       const double curvature = take_direction(beta, z, t, image);
       if (!(curvature > 0)) {
@@ -208,7 +212,7 @@ class Reynolds {
       last_product = product;
       advance(last_step, t, image, p, r);
       left -= last_step * descent;
-      // Differences of what is much larger are computed afresh.
+      // A dissipation that is a small difference of much larger numbers is computed anew.
       if (left < worth_a_refresh * computed) {
         left = computed = dissipation(p, along_x);
         net_inflow(p, along_x, r);
@@ -219,7 +223,7 @@ class Reynolds {
   }
 
  private:
-  // body(k, the same cell of the row above and of the row below, left, right)
+  // Calls body(k, cell above, cell below, cell to the left, cell to the right) for each cell k.
   template <class Body>
   void for_cells(Index first_row, Index last_row, const Body& body) const {
     const Index rows = faces_.x.rows(), columns = faces_.x.cols();
@@ -235,7 +239,7 @@ class Reynolds {
     }
   }
 
-  // What flows into each cell more than out of it.
+  // r = inflow minus outflow of each cell under the pressures p and the mean gradient.
   void net_inflow(const Field& p, bool along_x, Field& r) const {
     const double gradient_x = along_x ? 1 : 0, gradient_y = along_x ? 0 : 1;
     parallel::for_slabs(
@@ -286,7 +290,8 @@ class Reynolds {
     return total;
   }
 
-  // t = z + β t, its image, and <t, image>.
+  // Computes the search direction t = z + β t and its image At, where A is the operator of
+  // Reynolds' equation; returns the scalar product <t, At>.
   double take_direction(double beta, const Field& z, Field& t, Field& image) const {
     parallel::for_slabs(
         t.rows(),
@@ -328,8 +333,8 @@ class Reynolds {
   FlowMultigrid& multigrid_;
 };
 
-/// Conductances of the faces between cells that lie on a way round a period: what flows nowhere is
-/// left out.
+/// Conductances of the faces of those parts of the fluid that span a period; nothing flows through
+/// other parts.
 FaceConductances faces_of(const Field& conductance, const OpenParts& parts, const Grid2D& grid) {
   FaceConductances faces{uninitialised_field(grid.nx, grid.ny),
                          uninitialised_field(grid.nx, grid.ny)};
@@ -347,7 +352,8 @@ FaceConductances faces_of(const Field& conductance, const OpenParts& parts, cons
             const bool used = parts.leads_round(k).any();
             const Index below = (row + 1 == grid.nx ? 0 : row + 1) * grid.ny + column;
             const Index right = row * grid.ny + (column + 1 == grid.ny ? 0 : column + 1);
-            // A cell that is its own neighbour exchanges nothing with it, but lets pass.
+            // A cell that is its own neighbour (one cell per period) exchanges nothing with itself
+            // but conducts across the period.
             faces.x.data()[k] = used ? between(k, below) * aspect : 0;
             faces.y.data()[k] = used ? between(k, right) / aspect : 0;
           }
@@ -409,7 +415,7 @@ void require_gap(const Field& gap, const Grid2D& grid) {
   require(gap.rows() == grid.nx && gap.cols() == grid.ny, "gap", gap.size(),
           "cells must fill the grid");
   require(grid.points() < std::numeric_limits<std::int32_t>::max(), "grid", grid.points(),
-          "cells are too many for a flow, which counts up to 2147483646 of them");
+          "cells are too many for a flow, which takes at most 2147483646");
   require(gap.isFinite().all(), "gap", gap.sum(), "must be finite in every cell");
 }
 
@@ -423,7 +429,7 @@ FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions
 FlowFactors flow_factors(const NormalContactState& state, const Grid2D& grid,
                          const FlowOptions& options) {
   require_that(state.communicator.alone(), "state",
-               "is spread over several processes, and a flow needs it whole");
+               "is spread over several processes, but a flow needs the whole grid");
   require_gap(state.gap, grid);
   const double* pressure = state.contact_pressure.data();
   return flow_through(state.gap, grid, options, [&](Index k) { return !(pressure[k] > 0); });

@@ -10,23 +10,28 @@
 namespace salebra::detail {
 namespace {
 
-// Unknowns are joined where the conductance between them is at least this part of what leaves the
-// less conducting one. The face of two cells has a quarter of that or more: 2 g_1³ g_2³/(g_1³ +
-// g_2³) >= min g³, and no face of a cell has more than 2 g³ of it.
+// Two unknowns are joined if the conductance between them is at least this fraction of the total
+// conductance, to all neighbours, of the one that conducts less. Between two cells with gaps g_1
+// and g_2 the fraction is a quarter or more: the face conducts 2 g_1³ g_2³/(g_1³ + g_2³) >= min g³,
+// and no face of a cell with gap g conducts more than 2 g³.
 constexpr double min_part = 0.1;
 constexpr Index max_members = 4;
-// A block of so many unknowns is worked off by pieces: their pairs are compared with each other.
+// A block with more unknowns than this is split into pieces of this size, because all pairs of
+// unknowns in a piece are compared.
 constexpr std::size_t block_piece = 64;
-// A level of so few unknowns is solved directly.
+// A grid level with at most this many unknowns is solved directly.
 constexpr Index few_unknowns = 200;
-// A zero diagonal shift leaves the pressure of each part of the fluid undetermined.
+// Relative amount added to the diagonal of the coarsest matrix: without it the pressure of each
+// connected part of the fluid is undetermined.
 constexpr double diagonal_shift = 1e-6;
-// The second of two conjugate gradients is left out where the first gains so much, squared.
+// A grid level is solved by at most two steps of conjugate gradients. The second is skipped if the
+// first reduces the squared residual to this fraction.
 constexpr double first_is_enough = 0.2 * 0.2;
 constexpr Index max_slabs = 32;
 
-// Rows of unknowns in slabs of two colours. Slabs of one colour have no common faces, hence threads
-// may work on them side by side, and their number does not depend on that of the threads.
+// Visits rows of unknowns in slabs of two alternating colours. Slabs of one colour do not touch, so
+// threads may work on them at the same time. The number of slabs does not depend on the number of
+// threads.
 template <bool forward, class Body>
 void visit_by_colours(Index rows, Index unknowns, const Body& body) {
   const auto visit = [&](Index begin, Index end) {
@@ -47,8 +52,8 @@ void visit_by_colours(Index rows, Index unknowns, const Body& body) {
         unknowns / 2);
 }
 
-// body(left, right, k) for the cells of a row of a periodic grid, from its first to its last or the
-// other way.
+// Calls body(left, right, k) for each cell k of a row of a periodic grid, with its neighbours in
+// the row, forwards or backwards.
 template <bool forward, class Body>
 void visit_row(Index first, Index columns, const Body& body) {
   const Index last = first + columns - 1;
@@ -65,14 +70,14 @@ void visit_row(Index first, Index columns, const Body& body) {
 }
 
 struct RowsAround {
-  Index here, above, below;  // first cells
+  Index here, above, below;  // first cells of this row and its two neighbours
 };
 RowsAround rows_around(Index row, Index rows, Index columns) {
   return {row * columns, (row == 0 ? rows - 1 : row - 1) * columns,
           (row == rows - 1 ? 0 : row + 1) * columns};
 }
 
-// Sums of products of two fields, a with b and c with d.
+// Returns the sums Σab and Σcd over `count` numbers.
 std::array<double, 2> two_products(Index count, const double* a, const double* b, const double* c,
                                    const double* d) {
   std::array<double, 2> total{};
@@ -93,7 +98,8 @@ std::array<double, 2> two_products(Index count, const double* a, const double* b
   return total;
 }
 
-// Unknowns of a block that are joined to each other one after the other, the firmest pair first.
+// Joins the unknowns of a block to groups, pair by pair, the pair with the largest conductance
+// first.
 class BlockGroups {
  public:
   void start() {
@@ -146,15 +152,15 @@ class BlockGroups {
  private:
   std::size_t count_ = 0;
   std::vector<std::int32_t> unknowns_;
-  std::array<std::size_t, block_piece> group_;  // the first place of each group
-  std::array<double, block_piece> leaves_;      // conductance to all others
+  std::array<std::size_t, block_piece> group_;  // index of the first member of each group
+  std::array<double, block_piece> leaves_;      // conductance to unknowns of other groups
   std::array<Index, block_piece> members_;
   std::array<std::array<double, block_piece>, block_piece> between_;
 };
 
 }  // namespace
 
-// body(neighbour, conductance)
+// Calls body(neighbour, conductance) for each neighbour of unknown k.
 template <class Body>
 void FlowMultigrid::for_neighbours(const Level& level, Index k, const Body& body) {
   const auto at = [](Index index) { return static_cast<std::size_t>(index); };
@@ -317,7 +323,8 @@ void FlowMultigrid::smooth(const Level& level, const double* b, double* x) {
       const auto [here, above, below] = rows_around(row, level.rows(), level.columns);
       const double *along_x = level.to_next_x, *along_y = level.to_next_y;
       const Index up = above - here, down = below - here;
-      // The last cell waits in a register: its way through memory takes longer than a step.
+      // The cell visited last stays in a register: storing and reloading it would take longer than
+      // a step.
       double last = x[forward ? here + level.columns - 1 : here];
       visit_row<forward>(here, level.columns, [&](Index left, Index right, Index k) {
         const double across = b[k] + along_x[k + up] * x[k + up] + along_x[k] * x[k + down];
@@ -393,7 +400,8 @@ void FlowMultigrid::add_coarse(const Level& level, const double* coarse, double*
       level.unknowns());
 }
 
-// x = Bb: a sweep, the coarser level, and the sweep the other way.
+// x ≈ A⁻¹b, with the matrix A of the level, by a forward Gauss–Seidel sweep, a correction from the
+// coarser level, and a backward sweep.
 void FlowMultigrid::cycle(std::size_t depth, const double* b, double* x) {
   Level& level = levels_[depth];
   Level& next = levels_[depth + 1];
@@ -406,7 +414,8 @@ void FlowMultigrid::cycle(std::size_t depth, const double* b, double* x) {
   smooth<false>(level, b, x);
 }
 
-// x ≈ A⁻¹b by two flexible conjugate gradients, or directly.
+// x ≈ A⁻¹b, with the matrix A of the level, by at most two steps of flexible conjugate gradients,
+// or directly on the coarsest level.
 void FlowMultigrid::solve(std::size_t depth, const double* b, double* x) {
   Level& level = levels_[depth];
   const Index count = level.unknowns();

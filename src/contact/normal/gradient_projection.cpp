@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fallback contact solver: gradient projection with CG on each face, where the active set cycles.
+// Fallback contact solver if the active set cycles: gradient projection, with conjugate gradients
+// on the free cells while the set of free cells stays the same.
 #include "gradient_projection.hpp"
 
 #include <algorithm>
@@ -12,14 +13,16 @@
 namespace salebra::detail {
 namespace {
 
-// A step is taken when the energy falls by this part of what its slope promises.
+// A step is taken if the energy falls by at least this fraction of what the slope of the energy at
+// the beginning of the step promises.
 constexpr double sufficient_decrease = 0.1;
-// CG on one set of free cells ends when a step gains less than this part of the best one.
+// CG on one set of free cells ends when a step gains less than this fraction of the best step on
+// this set.
 constexpr double worthwhile_gain = 0.02;
 constexpr int max_steps_on_a_face = 60;
 constexpr int max_backtracks = 30;
 constexpr int max_fruitless_rounds = 3;
-constexpr int refresh_every = 20;  // rounds, against the drift of g
+constexpr int refresh_every = 20;  // rounds, because round-off adds up in g
 
 class Descent {
  public:
@@ -38,15 +41,16 @@ class Descent {
     image_.resize(rows_.count(), problem.grid.ny);
   }
 
-  // The load and g afresh: steps add round-off to both, more of it the more elongated the cells.
+  // Corrects the load and computes g = Gp − h anew from the pressures p: each step adds round-off
+  // to the load and to g, the more the longer the cells are.
   void refresh() {
     if (target_.load_given()) correct_load();
     apply(p_);
     g_ = image_ - (heights_ - zero_);
   }
 
-  // One step along the projection of p − step·gradient. Returns false where no such step descends:
-  // p is the solution.
+  // Changes the pressures p to the projection of p − step·gradient onto the bounds and the load.
+  // Returns false if no such step lowers the energy: then p is the solution.
   bool project_gradient() {
     if (!(step_ > 0)) step_ = first_step();
     for (int trial = 0; trial < max_backtracks; ++trial) {
@@ -56,7 +60,7 @@ class Descent {
       if (!(slope < 0)) return false;
       apply(change);
       const double curvature = sum(change * image_);
-      const double best = -slope / curvature;  // of the multiples of this change
+      const double best = -slope / curvature;  // factor of `change` with the least energy
       if (slope + 0.5 * curvature <= sufficient_decrease * slope) {
         take(change);
         step_ *= std::clamp(best, 0.5, 4.0);
@@ -67,9 +71,9 @@ class Descent {
     return false;
   }
 
-  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is
-  // gained. A separate loop, because the last step ends at a bound and p and g change with each
-  // step, within bounds.
+  // Preconditioned CG on the cells strictly between their bounds, until the pressure p of a cell
+  // meets a bound or steps gain little. It has its own loop because the last step ends at a bound,
+  // and p and g = Gp − h stay those of pressures within the bounds at every step.
   void descend_on_face(int most) {
     const Field mask = (p_ > 0 && p_ < target_.bound).cast<double>();
     const double count = sum(mask);
@@ -95,8 +99,8 @@ class Descent {
       if (step <= max_step) {
         take_multiple(direction, -step);
       } else {
-        // Beyond the first bound the projected step is taken if it descends, or else the step as
-        // far as the bound.
+        // If the step goes beyond the first bound, project its end onto the bounds and take this
+        // step if it lowers the energy, otherwise go only up to the bound.
         const Field change = projected(p_ - step * direction) - p_;
         const Field down = gradient();
         const double slope = sum(down * change);
@@ -149,8 +153,8 @@ class Descent {
         });
     p_ = p_.unaryExpr([&](double p) { return correction(p, bound); });
   }
-  // At given load a constant may be taken off; the level of the free cells leaves the least to
-  // cancel.
+  // Gradient of the energy. If the load is given, a constant may be subtracted from g; with the
+  // mean of g over the free cells, sums over the gradient cancel least.
   Field gradient() const {
     if (!target_.load_given()) return g_ - target_.value;
     const Field free = (p_ > 0 && p_ < target_.bound).cast<double>();
@@ -158,8 +162,8 @@ class Descent {
     return g_ - (count > 0 ? sum(free * g_) / count : least(g_));
   }
 
-  // A step that would undo the gradient in one cell of the stencil: a scale, corrected by the first
-  // trials.
+  // Initial step: the central weight of the approximate inverse, which would remove the gradient of
+  // a single cell; the first trials correct it.
   double first_step() const { return inverse_.weight(0, 0); }
 
   double max_step_along(const Field& direction) const {
@@ -172,8 +176,8 @@ class Descent {
     return rows_.communicator().min_of(max_step);
   }
 
-  // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with
-  // the right shift.
+  // The point nearest to x within the bounds and, if the load is given, with this load: clamp(x +
+  // shift) with a suitable shift.
   Field projected(const Field& x) const {
     if (!target_.load_given()) return x.max(0.0).min(target_.bound);
     const double load = target_.value * cells_, lowest = least(x);
@@ -192,7 +196,7 @@ class Descent {
     return (x + shift).max(0.0).min(target_.bound);
   }
 
-  // Sums over the cells of all processes, added within blocks of rows.
+  // Sum over the cells of all processes, added within blocks of rows.
   template <class Values>
   double sum(const Values& values) const {
     return parallel::sum_blocks(rows_, [&](Index begin, Index end) {
@@ -205,13 +209,13 @@ class Descent {
   template <class Values>
   double least(const Values& values) const {
     return rows_.communicator().min_of(values.size() > 0 ? values.minCoeff()
-                                                    : std::numeric_limits<double>::infinity());
+                                                         : std::numeric_limits<double>::infinity());
   }
 
   using Dense = Eigen::Map<Field>;
   Convolution2D<double>& compliance_;
   RowPartition rows_;
-  double cells_;  // of all processes
+  double cells_;  // number of cells of all processes
   Boundary boundary_;
   ScaledOperatingPoint target_;
   Eigen::Map<const Field> heights_;
@@ -231,7 +235,8 @@ void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits
   const RowPartition& rows = problem.rows;
   Descent descent(problem, p, g, outcome);
   descent.refresh();
-  int fruitless = 0;  // rounds without descent by gradient projection: rounding, or the solution
+  int fruitless = 0;  // rounds in which gradient projection found no descent: by rounding, or at
+                      // the solution
   for (int round = 1;; ++round) {
     fruitless = descent.project_gradient() ? 0 : fruitless + 1;
     ++outcome.iterations;

@@ -6,11 +6,13 @@
 
 namespace salebra::detail {
 
-// Fallback where ActiveSetCg stalls (bounds that hold most of the load make its set of free cells
-// flutter): gradient projection, which finds the set, and conjugate gradients on the free cells, in
-// turns (Moré and Toraldo 1991, doi:10.1137/0801008). Each step lowers ½p·Gp − p·h, so it converges
-// from any start; several times the iterations of ActiveSetCg. p: within its bounds on entry, the
-// solution on return; g = Gp − h on return. Counters in outcome are accumulated.
+// Takes over if ActiveSetCg stalls: if cells at the bound hold most of the load, its set of free
+// cells may change back and forth. Gradient projection finds the set, conjugate gradients solve on
+// the free cells, and these two alternate (Moré and Toraldo 1991, doi:10.1137/0801008). Each step
+// lowers the energy ½p·Gp − p·h of the pressures p at heights h with the normal compliance G, so
+// the method converges from any start, in several times the iterations of ActiveSetCg. p: within
+// its bounds on entry, the solution on return; g = Gp − h on return. Counters in `outcome` are
+// increased.
 struct ProjectionProblem {
   Convolution2D<double>& compliance;
   const Grid2D& grid;

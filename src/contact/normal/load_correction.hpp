@@ -7,10 +7,10 @@
 
 namespace salebra::detail {
 
-// The load of pressures within their bounds, as a correction makes them.
+// Sums over the pressures p that a LoadCorrection gives, which are within their bounds.
 struct LoadSums {
-  double below = 0;                       // Σ of the cells below the bound
-  double unsaturated = 0, saturated = 0;  // numbers of cells
+  double below = 0;                       // Σp over the cells below the bound
+  double unsaturated = 0, saturated = 0;  // number of cells below the bound; at the bound
   void add(double p, double bound) {
     if (p >= bound) {
       saturated += 1;
@@ -26,7 +26,7 @@ struct LoadSums {
     return *this;
   }
 };
-// min(scale·max(p, 0) + shift, bound), and the bound where p has reached full_from.
+// Maps a pressure p to min(scale·max(p, 0) + shift, bound), or to the bound if p >= full_from.
 struct LoadCorrection {
   double scale = 1, shift = 0, full_from = std::numeric_limits<double>::infinity();
   double operator()(double p, double bound) const {
@@ -34,12 +34,13 @@ struct LoadCorrection {
   }
 };
 
-// The correction that gives the load asked, found from sums_of(correction). Pressures below the
-// bound are scaled, and cells at the bound stay there: a scale a little below 1 would free them
-// all, with gaps far from the plane. Where that would have to halve or more than double what is
-// below, all are scaled; where most loaded cells are at the bound, all are shifted. The sums are
-// concave, so that Newton's method cannot fail once it is below the load, where its first step
-// leads.
+// Finds the correction with which the sum of all pressures is `load`; sums_of(correction) returns
+// the LoadSums after a correction. Pressures below the bound are scaled, and cells at the bound
+// stay there: a scale just below 1 for all cells would free all cells at the bound, with gaps far
+// from the plane. If the scale would halve the pressures below the bound or more than double them,
+// all pressures are scaled; if that is not enough because most loaded cells are at the bound, all
+// are shifted. The load is a concave function of scale and shift, so Newton's method cannot fail:
+// its first step leads below the requested load, and from there it converges.
 template <class SumsOf>
 LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums_of) {
   constexpr double rounding = 1e-14;

@@ -19,8 +19,8 @@ Index halved(Index n) {
   return n % 2 == 0 ? n / 2 : fast_transform_size(n / 2);
 }
 
-// A process that takes part on a coarse grid has at least so many rows: fewer are sooner computed
-// than sent.
+// Minimum rows of a process that takes part on a coarse grid: for fewer rows, communication takes
+// longer than computation.
 constexpr Index min_coarse_rows = 64;
 
 RowExchange::Edge edge_of(Boundary boundary) {
@@ -31,21 +31,22 @@ Index into(Index k, Index n, Boundary boundary) {
   return boundary == Boundary::periodic ? (k % n + n) % n : std::clamp<Index>(k, 0, n - 1);
 }
 
-// Where the points of one axis lie on an axis with another number of points over the same length.
+// Position of a point of one axis on another axis of the same length that has another number of
+// points.
 struct Place {
-  Index base;       // the point at or before
-  double fraction;  // of the way to the next
+  Index base;       // last point at or before the position
+  double fraction;  // part of the distance to the next point
 };
 Place index(Index k, Index from, Index to) {
   const Index position = k * to;
   return {position / from, static_cast<double>(position % from) / static_cast<double>(from)};
 }
 
-// Four-point interpolation at one place: linear and cubic (Lagrange) weights of the points base − 1
-// … base + 2.
+// Interpolation at one position from the points base − 1 … base + 2: weights of these four points
+// for linear and for cubic (Lagrange) interpolation.
 struct Weights {
   Index base;
-  std::array<Index, 4> point;  // where these are, repeated or clamped
+  std::array<Index, 4> point;  // indices of the four points, wrapped or clamped
   std::array<float, 4> linear, cubic;
 };
 std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) {
@@ -65,7 +66,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
   return weights;
 }
 
-// The heights of the rows of this process on a coarser grid.
+// Heights on a coarser grid, for the rows of this process.
 Field sampled(const MultigridLevel& fine, const RowPartition& rows, Index ny, Boundary boundary) {
   const Index fine_ny = fine.grid.ny;
   const auto wanted = [&](int rank) {
@@ -108,8 +109,9 @@ Field sampled(const MultigridLevel& fine, const RowPartition& rows, Index ny, Bo
   return coarse;
 }
 
-// Pressure and displacement of one coarse row, with one point before and two beyond as the
-// interpolation between two points wants them, at the points of a row of the finer grid.
+// Interpolates pressure and displacement of one coarse row to the points of a row of the finer
+// grid. Copies of the coarse row have one more point before and two more after it, which the
+// four-point interpolation needs.
 class RowStretch {
  public:
   RowStretch(Index coarse, const std::vector<Weights>& along, Boundary boundary)
@@ -162,7 +164,8 @@ class RowStretch {
   std::vector<float> p_with_halo_, u_with_halo_;
 };
 
-// The stretched rows about one of the finer grid, and their weights.
+// The four coarse rows, already interpolated along y, around one row of the finer grid, and the
+// weights of these rows.
 struct FourRows {
   const Weights& w;
   std::array<const float*, 4> p, u;
@@ -227,7 +230,7 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
         }
       },
       coarse_rows.count() * coarse_ny);
-  // The rows between which those of this process lie.
+  // The window of coarse rows from which the rows of process `rank` are interpolated.
   const auto wanted = [&](int rank) {
     const Index begin = fine.rows.begin_of(rank), end = fine.rows.end_of(rank);
     if (begin == end) return RowExchange::Window{};

@@ -7,24 +7,26 @@
 
 namespace salebra::detail {
 
-// One grid of the hierarchy, in units of the finest cell's size.
+// One grid of a sequence of coarser and coarser grids; lengths are in cells of the finest grid.
 struct MultigridLevel {
   Grid2D grid;
-  RowPartition rows;            // that each process holds: fewer processes on coarse grids
-  Field coarse_heights;  // empty on the finest level, which reads the caller's
+  RowPartition rows;     // rows of each process; coarse grids have fewer processes
+  Field coarse_heights;  // empty on the finest grid, which reads the caller's heights
   Heights heights;
 };
 
-// Halves the grid while it has more than 64² cells, by point sampling where it divides and by
-// interpolation where it does not. levels.front() is the finest; there are at most `most`.
-// Collective.
+// Grids of which each has half the points of the previous one along each axis, until a grid has at
+// most 64² points: every second point if the number of points is even, interpolation otherwise.
+// levels.front() is the finest; there are at most `most` grids. Collective.
 std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const RowPartition& rows,
                                              const Heights& heights, Boundary boundary, int most);
 
-// A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the
-// cubic displacement predicts,
-//     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − level.
-// Fields hold the rows of this process. Collective.
+// Computes the pressures from which the finer grid starts: the coarse pressure p_c, interpolated
+// bilinearly, and one step in each point towards the gap that the cubically interpolated coarse
+// displacement u_c predicts at the heights h of the finer grid,
+//     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − plane_height,
+// with the coarse heights h_c and the coarse gap g_c, not relative to the plane. Fields hold the
+// rows of this process. Collective.
 struct CoarseSolution {
   const MultigridLevel& grid;
   const Field &pressure, &gap;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normal contact of a surface at a given pressure, mean gap or indentation, from coarse to fine.
+// Normal contact of a surface at a given pressure, mean gap, indentation or force, from the
+// coarsest grid to the finest.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,17 +28,20 @@ using detail::Heights;
 using detail::MultigridLevel;
 using detail::ScaledOperatingPoint;
 
-// Coarse levels only give a start: solving them further gains nothing.
+// Tolerance of solves on coarse grids, which only give a start: solving them more accurately gains
+// nothing.
 constexpr double coarse_tolerance = 1e-3;
-// Part of a full Jacobi step that the prolongation takes.
+// Fraction of a full Jacobi step, (gap)/(cell compliance), that corrects the pressure interpolated
+// from the coarser grid.
 constexpr double prediction = 0.6;
-// Saturated cells of a start that was rounded to float stay so: freed, they cost more iterations
-// than the start saves.
+// Cells whose initial pressure is the hardness, up to rounding to float, start as saturated:
+// finding out that they are costs more iterations than the start saves.
 constexpr double full_from = 1 - double(std::numeric_limits<float>::epsilon());
 
-// What the targets need of the heights, counted downwards from the highest point.
+// Quantities of the heights that the operating point needs, counted downwards from the highest
+// point.
 struct Depths {
-  double highest = 0;  // height of first touch
+  double highest = 0;  // height of the highest point, where the plane first touches
   double mean = 0;     // mean of highest − h: the mean gap at first touch
   double rms = 0;      // h_rms
 
@@ -45,7 +49,7 @@ struct Depths {
     const double points = static_cast<double>(surface.grid.points());
     double origin = surface.communicator.is_root() ? surface.heights(0, 0) : 0;
     surface.communicator.broadcast(&origin, sizeof origin);
-    // Offset by one height, so that a large mean does not cost precision.
+    // Heights count from one of them, so that a large mean does not cost precision.
     Sums total;
     total.highest = origin;
     for (const Sums& part : sums(surface, origin)) {
@@ -68,14 +72,14 @@ struct Depths {
 
  private:
   struct Sums {
-    double highest = 0, first = 0, second = 0;  // largest h, Σ(h − origin), Σ(h − origin)²
+    double highest = 0, first = 0, second = 0;  // maximum of h, Σ(h − origin), Σ(h − origin)²
   };
   static std::vector<Sums> sums(const Surface& surface, double origin) {
     const Field& heights = surface.heights;
     return parallel::map_blocks<Sums>(
         surface.partition(),
         [&](Index begin, Index end) {
-          // Several partial sums, because one alone waits for each of its additions.
+          // Several partial sums: in a single sum, each addition waits for the one before.
           constexpr Index lanes = 8;
           const double* h = heights.data() + begin * heights.cols();
           const Index count = (end - begin) * heights.cols();
@@ -127,8 +131,8 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
                  surface.communicator);
 }
 
-// Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order
-// p whatever the units.
+// The problem in scaled units. Heights stay in metres; the unit of pressure is E*/(cell size),
+// which makes the displacement Gp by a pressure p of the order of p in any system of units.
 struct Scaled {
   Grid2D grid;           // in cell sizes
   double pressure_unit;  // Pa
@@ -140,12 +144,12 @@ struct Scaled {
 };
 
 struct Solution {
-  Field pressure, gap;  // gap = Gp − h, not yet counted from the level
+  Field pressure, gap;  // displacement − height, not relative to the plane
   ActiveSetOutcome outcome;
 };
 
-// Mean height below zero: the mean gap at first touch, but for the summit that a coarse grid may
-// lack.
+// Mean depth of the heights below zero, the highest point of the finest grid. It is the mean gap at
+// first touch, unless the coarse grid lacks the highest point.
 double mean_depth_of(const MultigridLevel& level) {
   const double sum = parallel::sum_blocks(
       level.rows,
@@ -159,7 +163,7 @@ double mean_depth_of(const MultigridLevel& level) {
   return sum / static_cast<double>(level.grid.points());
 }
 
-// A contact from the coarsest level to the finest.
+// Solves a contact on the coarsest grid and on each finer one in turn.
 class NestedSolve {
  public:
   struct Problem {
@@ -185,14 +189,14 @@ class NestedSolve {
       solution_.pressure = start(k);
       solution_.gap = uninitialised_field(level.rows.count(), level.grid.ny);
       const ActiveSetLimits limits = limits_of(k);
-      // What was the start's is of no more use: 2.7 bytes for each cell of the finest grid.
+      // The coarser grids are no longer needed; they take 2.7 bytes per cell of the finest grid.
       levels_.erase(levels_.begin() + static_cast<std::ptrdiff_t>(k) + 1, levels_.end());
       ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
                                rms_height);
       ScaledOperatingPoint target_here = target;
-      // The mean height of a coarse grid is another one. At the same level it may be beyond full
-      // contact, where no pressure is a solution and CG runs away: a start for the finer grid has
-      // its mean gap instead.
+      // A coarse grid has another mean height than the finest one. With the same plane height its
+      // contact may be beyond full contact, where no pressure is a solution and CG diverges; a
+      // coarse grid is therefore solved for the same mean gap instead.
       if (k > 0 && !target.load_given() && options.boundary == Boundary::periodic)
         target_here.value += mean_depth_of(level) - mean_depth;
       solution_.outcome =
@@ -208,7 +212,7 @@ class NestedSolve {
  private:
   using Clock = std::chrono::steady_clock;
 
-  // A field of its own: the pressure of the coarser level is read meanwhile.
+  // Returns a new field, because the pressure of the coarser grid is still being read.
   Field start(std::size_t k) const {
     const auto& options = problem_.options;
     const auto& target = problem_.target;
@@ -223,8 +227,9 @@ class NestedSolve {
                              target.load_given() ? target.value : 0.0);
     Field pressure = uninitialised_field(level.rows.count(), level.grid.ny);
     const double step = prediction / cell_compliance(level.grid, 1);
-    detail::prolong({levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.plane_height},
-                    level, options.boundary, step, pressure.data());
+    detail::prolong(
+        {levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.plane_height}, level,
+        options.boundary, step, pressure.data());
     return pressure;
   }
 
@@ -244,7 +249,8 @@ class NestedSolve {
     if (options.on_checkpoint && k == 0) {
       limits.checkpoint_due = [this, &options] {
         const std::chrono::duration<double> elapsed = Clock::now() - last_checkpoint_;
-        return !problem_.rows.communicator().is_root() || elapsed.count() >= options.checkpoint_every;
+        return !problem_.rows.communicator().is_root() ||
+               elapsed.count() >= options.checkpoint_every;
       };
       limits.take_checkpoint = [this, &options] {
         solution_.pressure *= problem_.scaled.pressure_unit;
@@ -255,7 +261,7 @@ class NestedSolve {
     return limits;
   }
 
-  // Interrupted before the finest grid: an empty contact that says so.
+  // Makes a state without contact, for a solve that is interrupted before the finest grid.
   void show_nothing() {
     const Index nx = problem_.rows.count(), ny = problem_.scaled.grid.ny;
     solution_.pressure = Field::Zero(nx, ny);
@@ -289,8 +295,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
                sums.pressure += pressure;
                sums.contact += pressure > 0 ? 1 : 0;
                sums.work += pressure * (gap + below_summit[k]);
-               // A saturated cell sinks in: what is below the plane there is plastic flow, not a
-               // gap.
+               // A saturated cell sinks in: its depth below the plane is plastic flow, not a gap.
                const bool flows = pressure >= target.bound;
                gap = flows ? 0 : gap - outcome.plane_height;
                pressure = flows ? hardness : pressure * scaled.pressure_unit;
@@ -318,7 +323,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
   state.iterations = outcome.iterations;
   state.fft_count = outcome.fft_count;
   state.multilevel_count = outcome.multilevel_count;
-  // Numbers beyond the range of double pass every comparison.
+  // Detects results that are not finite: such numbers pass every comparison of the solver.
   const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
                       std::isfinite(state.elastic_energy);
   if (!finite) state.residual = std::numeric_limits<double>::infinity();
@@ -328,7 +333,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
   return state;
 }
 
-// A plane touches everywhere under any pressure.
+// A flat surface touches everywhere under any pressure.
 NormalContactState full_contact_of_plane(const Surface& surface, double nominal_pressure) {
   NormalContactState state;
   state.contact_pressure =
@@ -342,7 +347,8 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
   return state;
 }
 
-// Heights count from the highest point, so that the level of the plane is the indentation.
+// Solves a contact. Heights count from the highest point, so the height of the plane is the
+// indentation.
 NormalContactState contact_of(const Surface& surface, double contact_modulus, const Depths& depths,
                               const OperatingPoint& point, const NormalContactOptions& options) {
   const Scaled scaled(surface.grid, contact_modulus);
@@ -350,14 +356,14 @@ NormalContactState contact_of(const Surface& surface, double contact_modulus, co
       point.control, point.load_given() ? point.value / scaled.pressure_unit : point.value,
       options.hardness / scaled.pressure_unit};
   const Heights heights{surface.heights.data(), depths.highest};
-  // A flat punch has no roughness to compare a gap with, and its problem is linear: the
-  // displacement is the length.
+  // A flat punch has no rms height as a length to compare gaps with; its problem is linear, and the
+  // displacement serves as this length.
   const double displacement = point.load_given()
                                   ? point.value / contact_modulus * std::sqrt(surface.grid.area())
                                   : point.value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
   const RowPartition rows = surface.partition();
-  const auto solve = [&]<class Real>(Real) {  // the coarse grids go when it returns
+  const auto solve = [&]<class Real>(Real) {  // levels are freed at return
     return NestedSolve({scaled, rows, heights, length, depths.mean, scaled_point, options})
         .run<Real>();
   };
@@ -365,7 +371,7 @@ NormalContactState contact_of(const Surface& surface, double contact_modulus, co
   return state_of(std::move(solution), scaled_point, scaled, surface, heights, options.hardness);
 }
 
-/// The nominal pressure of a pressure or a force.
+/// Checks a prescribed load and returns its nominal pressure.
 double checked_pressure(const OperatingPoint& point, double area, double contact_modulus,
                         double hardness) {
   const bool by_force = point.control == ControlQuantity::normal_force;
@@ -377,21 +383,24 @@ double checked_pressure(const OperatingPoint& point, double area, double contact
                       contact_modulus));
   require(
       pressure < hardness, "hardness", format_quantity(hardness, Dimension::pressure),
-      fmt::format("must exceed the nominal pressure, {}: no contact carries more than its hardness",
-                  format_quantity(pressure, Dimension::pressure)));
+      fmt::format(
+          "must exceed the nominal pressure, {}, because no contact carries more than its hardness",
+          format_quantity(pressure, Dimension::pressure)));
   return pressure;
 }
 
-/// The indentation of a mean gap, or the indentation itself.
+/// Checks a prescribed mean gap or indentation and returns the indentation.
 double checked_indentation(const OperatingPoint& point, double highest, Boundary boundary) {
   if (point.control == ControlQuantity::mean_gap) {
     require(point.value < highest, "mean_gap", point.value,
             fmt::format("must be below {} m, where the highest point first touches", highest));
-    // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
+    // The mean displacement of a periodic surface is zero, so the approach and the mean gap add up
+    // to the mean gap at first touch.
     return highest - point.value;
   }
-  require(boundary == Boundary::free || point.value < highest, "indentation", point.value,
-          fmt::format("must be below {} m, where a periodic contact is full", highest));
+  require(
+      boundary == Boundary::free || point.value < highest, "indentation", point.value,
+      fmt::format("must be below {} m, at which a periodic surface is in full contact", highest));
   return point.value;
 }
 
@@ -413,9 +422,9 @@ NormalContactState press(const Surface& surface, double contact_modulus,
   if (point.control == ControlQuantity::mean_gap) {
     require(options.boundary == Boundary::periodic, "boundary", "free",
             "has no mean gap; give a force or an indentation");
-    require(
-        std::isinf(options.hardness), "hardness", options.hardness,
-        "makes the mean gap depend on more than the approach; give a pressure or an indentation");
+    require(std::isinf(options.hardness), "hardness", options.hardness,
+            "makes the mean gap depend on the plastic deformation too; give a pressure or an "
+            "indentation");
   }
   require_positive(point.value, name_of(point.control));
   const Depths depths(surface);

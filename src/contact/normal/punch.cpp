@@ -19,15 +19,17 @@ namespace salebra {
 namespace detail {
 namespace {
 
-// The load is a maximum over q, so its error is the square of the error of q: a loose solve is
-// enough for a sharp load.
+// The punch solve ends when this many steps in a row gain little. The load is a maximum over the
+// pressures q, so its error is the square of the error of q, and two small gains suffice.
 constexpr int gains_in_a_row = 2;
-// A preconditioner needs no more: 99 % of what can be gained takes ten to twenty steps.
+// Maximum CG steps of invert(), which serves as a preconditioner: ten to twenty steps reach 99 % of
+// the possible gain.
 constexpr int max_inner_steps = 100;
 
 }  // namespace
 
-// q = 0, and r from g = −u.
+// Starts at the pressures q = 0 with the residual r of g = Gq − u = −u, where u is the requested
+// displacement.
 template <class Real>
 void ActiveSetCg<Real>::begin_punch() {
   std::fill_n(p_, tile_points(), 0.0);
@@ -35,8 +37,9 @@ void ActiveSetCg<Real>::begin_punch() {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
 
-// One step of CG; returns by how much it lowered ½q·Gq − q·u, twice. curvature: <t, w> of the last
-// direction, replaced.
+// Takes one step of CG; returns twice the decrease of ½q·Gq − q·u for pressures q and the requested
+// displacement u. curvature: scalar product <t, w> of the search direction t and its displacement
+// w, for the last direction on entry and for the new one on return.
 template <class Real>
 double ActiveSetCg<Real>::punch_step(double& curvature, PunchOutcome& outcome) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
@@ -70,7 +73,8 @@ bool ActiveSetCg<Real>::hold(const std::vector<Index>& cells) {
   std::fill_n(m_, tile_points(), Real(0));
   std::fill_n(g_, tile_points(), 0.0);
   indices_.clear();
-  std::size_t tiles = 0, last = 0;  // tiles passed, the last of them among all of the grid
+  // Number of tiles found so far, and the index of the last found tile among all tiles of the grid.
+  std::size_t tiles = 0, last = 0;
   for (const Index cell : cells) {
     if (tiles == 0 || tile_of(cell) != last) ++tiles;
     last = tile_of(cell);
@@ -94,10 +98,11 @@ void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
   for (std::size_t k = 0; k < indices_.size(); ++k) q[k] = p_[indices_[k]];
 }
 
-// CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then
-// taken from 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the multilevel kernel
-// CG goes in rounds, each about an exact residual: what is left to gain falls by (eps/(1 − eps))²
-// or more from round to round.
+// Minimises ½q·Gq − Σq over the pressures q by CG as in solve(), on a fixed set of cells, whose
+// displacement is then 1. The load is computed as 2Σq − q·Gq in double precision, whose error is
+// quadratic in that of q. On the multilevel kernel, whose relative error is eps, CG works in
+// rounds, each of which begins with an exact residual: from round to round the possible gain falls
+// by the factor (eps/(1 − eps))² or more.
 template <class Real>
 PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const PunchLimits& limits,
                                            Field* pressure) {
@@ -112,7 +117,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   return outcome;
 }
 
-// The tiles of the cells of the set, and 1 in m_ for each.
+// Chooses the tiles that hold cells of the punch (0 < p < bound), and sets m_ to 1 on these cells.
 template <class Real>
 void ActiveSetCg<Real>::hold_punch_set(const double* p, double bound) {
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
@@ -133,11 +138,12 @@ void ActiveSetCg<Real>::hold_punch_set(const double* p, double bound) {
   }
 }
 
-// Converged where steps ended because they gained too little.
+// Takes steps of CG until they gain too little, which counts as converged, or until a limit is
+// reached.
 template <class Real>
 Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& outcome) {
   double curvature = 1, gained = 0, round_gained = 0;
-  double contraction = 1;  // of what is left to gain, from round to round
+  double contraction = 1;  // of the possible gain, per round
   if (on_multilevel_) contraction = std::pow(multilevel_->error() / (1 - multilevel_->error()), 2);
   double last_round = 0;
   int small_gains = 0;
@@ -146,7 +152,8 @@ Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutc
       return Termination::interrupted;
     const double gain = punch_step(curvature, outcome);
     if (!(gain > 0)) {
-      // Nothing is left to gain, as after one step on a single cell; or the values are NaN.
+      // The gain is 0 if none is possible, as after one step on a single cell, and NaN if the
+      // values are NaN.
       return gain == 0 ? Termination::converged : Termination::out_of_range;
     }
     gained += gain;
@@ -170,13 +177,15 @@ Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutc
   return small_gains == gains_in_a_row ? Termination::converged : Termination::iteration_limit;
 }
 
-// Load and residual by one exact application.
+// Computes the load and residual of the punch by one exact application of the normal compliance.
 template <class Real>
 void ActiveSetCg<Real>::measure_punch(PunchOutcome& outcome, Field* pressure) {
-  // The transform takes the memory of the tiles' fields.
+  // Copies of the tiles' pressures and set, because the transform overwrites the memory of the
+  // tiles' arrays.
   const std::vector<double> q(p_, p_ + tile_points());
   const std::vector<Real> in_set_of_tiles(m_, m_ + tile_points());
-  const auto on_row = [&](Index row, const auto& body) {  // body(k, column, width) for its tiles
+  // Calls body(k, column, width) for each tile k of a row: `width` cells from `column` on.
+  const auto on_row = [&](Index row, const auto& body) {
     for (Index k = first_tile(row); k < first_tile(row + 1); ++k) {
       const Index column = tiles_[static_cast<std::size_t>(k)].column;
       body(k, column, std::min<Index>(tile_width, grid_.ny - column));
@@ -220,7 +229,8 @@ void ActiveSetCg<Real>::measure_punch(PunchOutcome& outcome, Field* pressure) {
   }
 }
 
-// g = Gq − 1 on the tiles, by a transform, and r.
+// Computes g = Gq − 1 (displacement by the pressures q minus 1) on the tiles by a Fourier
+// transform, and the residual r on the punch.
 template <class Real>
 void ActiveSetCg<Real>::renew_punch_residual() {
   const bool on_multilevel = std::exchange(on_multilevel_, false);
@@ -259,10 +269,9 @@ template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, con
 
 namespace {
 
-// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more
-// of the grid than they span; where several processes hold them, the rows of the grid stay with the
-// processes that have them.
-// Presses the cells with 0 < p < bound.
+// Presses the cells with 0 < p < bound in as one rigid piece. With a free boundary, a single
+// process needs only the part of the grid that the cells span; several processes keep the rows of
+// the grid that they have.
 struct PunchProblem {
   const Field& p;
   double bound;
@@ -290,7 +299,8 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
                       static_cast<double>(window.ny) * grid.dy() / cell};
   Field q;
   const auto press = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, RowPartition(communicator, window.nx), 1, boundary, {}, 0)
+    return detail::ActiveSetCg<Real>(scaled, RowPartition(communicator, window.nx), 1, boundary, {},
+                                     0)
         .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
   };
   const detail::PunchOutcome outcome =
@@ -299,8 +309,8 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
     *punch_pressure = Field::Zero(p.rows(), p.cols());
     punch_pressure->block(window.x0, window.y0, q.rows(), window.ny) = q * (contact_modulus / cell);
   }
-  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one
-  // cell size.
+  // With lengths in cell sizes and E* = 1, the load Σq is the force in E*·(cell size)² for an
+  // approach of one cell size.
   return {.normal_stiffness = outcome.load * contact_modulus * cell,
           .iterations = outcome.iterations,
           .fft_count = outcome.fft_count,
@@ -326,7 +336,8 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
         state.contact_pressure.rows() == rows.count() && state.contact_pressure.cols() == grid.ny,
         "pressure", state.contact_pressure.size(), "points do not fill the grid");
   });
-  // In full contact the periodic cell approaches no further: its compliance has no mean.
+  // A periodic surface in full contact cannot approach further, because the mean displacement by
+  // pressures is zero.
   const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
   if (options.boundary == Boundary::periodic && state.communicator.all_agree(elastic.all()))
     return std::numeric_limits<double>::infinity();
@@ -350,7 +361,8 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
     if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
     return {.termination = Termination::converged};
   }
-  // K is a minimum: its relative error is of the order of the square of the displacement's.
+  // K is a maximum over the pressures of the punch: its relative error is of the order of the
+  // square of the relative error of the displacement.
   const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
   const Field ones = contact.cast<double>();
   return press_punch({ones,

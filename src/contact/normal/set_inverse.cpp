@@ -10,12 +10,13 @@
 namespace salebra::detail {
 namespace {
 
-// A step that gains less than this part of all ends the iteration. With 1e-3 the outer iteration
-// takes 6 to 9 steps in place of 6 to 11 (1024², bench/stick) and as long; with 1e-1 up to
-// 18, and 30 % longer.
+// CG in apply() ends when a step gains less than this fraction of the total gain. With 1e-3 the
+// outer iteration, which it preconditions, takes 6 to 9 steps instead of 6 to 11 (1024²,
+// bench/stick) and the same time; with 1e-1 up to 18 steps and 30 % longer.
 constexpr double step_ends = 1e-2;
 
-// With lengths in cells and E* = 1 no number of a solve leaves the range of float.
+// The grid with lengths in cell sizes: with this and E* = 1, no number of a solve leaves the range
+// of float.
 Grid2D in_cells(const Grid2D& grid) {
   const double cell = std::sqrt(grid.cell_area());
   return {grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
@@ -25,7 +26,7 @@ Grid2D in_cells(const Grid2D& grid) {
 
 struct SetInverse::Parts {
   RowPartition rows;
-  double per_cell;  // 1/m, of G⁻¹ with lengths in cells
+  double per_cell;  // 1/m, scale of the inverse with lengths in cells
   ActiveSetCg<float> solver;
   std::vector<double> scaled;
   std::size_t count = 0;
@@ -44,7 +45,7 @@ bool SetInverse::hold(const std::vector<Index>& cells) {
   if (!parts_) return false;
   parts_->count = cells.size();
   if (parts_->solver.hold(cells)) return true;
-  parts_.reset();  // no other set of this grid has a multilevel kernel either
+  parts_.reset();  // no set of this grid has a multilevel kernel
   return false;
 }
 

@@ -9,10 +9,11 @@
 
 namespace salebra::detail {
 
-// Approximate inverse of normal_compliance() on a set of cells, E* = 1, without a transform of the
-// grid: CG in float with the multilevel kernel in its place, until the error in the norm of G is
-// about a tenth. It is not the same linear map for every vector: an iteration that is
-// preconditioned with it needs β = −<z, Ad>/<d, Ad>.
+// Approximate inverse of normal_compliance() for E* = 1 on a set of cells, without a Fourier
+// transform of the grid: CG in float, with the multilevel kernel in place of the transform, until
+// the error in the energy norm of the compliance is about a tenth. It is not the same linear map
+// for every vector, so an outer iteration on A x = b that it preconditions must use β = −<z,
+// Ad>/<d, Ad> with the last direction d and the preconditioned residual z.
 class SetInverse {
  public:
   SetInverse(const Grid2D& grid, const RowPartition& rows, Boundary boundary);
@@ -20,12 +21,14 @@ class SetInverse {
   SetInverse& operator=(SetInverse&&) noexcept;
   ~SetInverse();
 
-  // The set: ix·ny + iy of the rows of this process, in row order. False where the grid has no
-  // multilevel kernel: apply() must not be called then. Both are collective.
+  // Sets the cells: the numbers ix·ny + iy in the rows of this process, in row order. Returns false
+  // if the grid has no multilevel kernel; then apply() must not be called. hold() and apply() are
+  // collective.
   bool hold(const std::vector<Index>& cells);
-  // One value for each cell of the set; q may be u.
+  // Computes the pressures q for the displacements u, one value for each cell of the set; q may be
+  // u.
   void apply(const double* u, double* q);
-  int multilevel_count() const;  // applications so far
+  int multilevel_count() const;  // of the multilevel kernel
 
  private:
   struct Parts;

@@ -7,11 +7,11 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the active-set solver; the tests' reference_kernels.hpp says in plain
-// loops what each does. They walk tiles: runs of 16 cells of one row that hold contact or are close
-// to it, since short runs of any length do not vectorise. One source is compiled for each vector
-// width; no header with inline functions may be included there, because the linker could then give
-// code for a wide machine to a narrow one.
+// Pointwise passes of the active-set solver; reference_kernels.hpp of the tests defines each of
+// these passes in plain loops. The passes walk over tiles, runs of 16 cells of one row that hold
+// contact or are close to it, because runs of varying length do not vectorise. One source file is
+// compiled for each vector width. That file must not include a header with inline functions: the
+// linker could then give code for a wide machine to a narrow one.
 
 inline constexpr int stencil_size = (2 * halo + 1) * (2 * halo + 1);
 
@@ -19,33 +19,34 @@ struct NewDirection {
   double z_mean, beta, t_mean;
 };
 
-// What a LoadCorrection says.
+// The members of a LoadCorrection.
 struct Truncation {
   double scale, shift, full_from;
 };
 
-// A field either has a halo, or stands tile after tile (packed) with zeros where a row ends within a tile.
-// Directions and their images are packed too: as whole fields they would be the half of what an
-// iteration reads and writes. The transform spreads and collects them row by row.
+// The fields of a solve on tiles. A field either has a halo or is packed: stored tile after tile,
+// with zeros where a row ends within a tile. Search directions and their displacements are packed,
+// because as whole fields they would be half of what an iteration reads and writes. A Fourier
+// transform spreads them to rows and collects its result from rows.
 template <class Real>
 struct TileArrays {
   const Tile* tiles;
   std::ptrdiff_t tile_count;
   std::ptrdiff_t ny;           // cells of a row
   std::ptrdiff_t halo_stride;  // from one row of r to the next
-  Real* r;                     // with a halo: (g − level) on the free cells, zero elsewhere
+  Real* r;                     // with a halo: residual g − plane height, 0 on held cells
   double* p;                   // packed: pressure
-  double* g;                   // packed: Gp − h
+  double* g;                   // packed: displacement by p minus height
   Real* t;                     // packed: search direction
-  Real* w;                     // packed: Gt
-  Real* z;                     // packed: preconditioned residual, and what truncate() changes
-  Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
-  unsigned char*
-      // of each tile: 1 where no cell is free or loaded, and then t is zero, and r from the next
-      // residual() on
-      quiet;
+  Real* w;                     // packed: displacement by t
+  Real* z;                     // packed: preconditioned residual; after truncate() the change of p
+  // packed: 1 on free cells, where g = plane height is solved; 0 where p is held at a bound
+  Real* m;
+  // One for each tile: 1 if no cell of the tile is free or loaded. Then t is zero on the tile, and
+  // r is zero after the next call of residual().
+  unsigned char* quiet;
   const Real* stencil;  // stencil_size weights, symmetric about both axes
-  double bound;         // largest pressure allowed; may be infinite
+  double bound;         // upper bound of the pressure; may be infinite
 };
 
 struct PreconditionSums {
@@ -56,87 +57,94 @@ struct CurvatureSums {
 };
 struct StepSums {
   double outside = 0;   // Σ (distance of p to its bounds)²
-  double wrong = 0;     // Σ (g − level)² over held cells where it has the wrong sign
+  double wrong = 0;     // Σ (g − plane height)² over held cells whose gap has the wrong sign
   double clipped = 0;   // Σ distance of p to its bounds
   double pressure = 0;  // Σ p over cells below the bound, p clipped to its bounds
-  double misfit = 0;  // Σ p|g − level| there, plus bound·(g − level) of saturated cells still apart
-  double signed_misfit = 0;  // the same with p(g − level)
+  // Σ p|g − plane height| over the cells below the bound, plus Σ bound·(g − plane height) over
+  // saturated cells above the plane
+  double misfit = 0;
+  double signed_misfit = 0;  // same, with p(g − plane height)
   double saturated = 0;      // number of cells at the bound
-  double least = 0;          // least g over cells below the bound
+  double least = 0;          // minimum of g over cells below the bound
 };
 struct SetSums {
-  double count = 0, g = 0;  // free cells and Σg over them
+  double count = 0, g = 0;  // number of free cells and Σg over them
 };
 struct GapSums {
   double pressure = 0;      // Σp
-  double count = 0, g = 0;  // cells with 0 < p < bound and Σg over them
+  double count = 0, g = 0;  // number of cells with 0 < p < bound and Σg over them
   double misfit = 0;        // Σ p(g − plane)
   double distance = 0;      // Σ p|g − plane|
-  double saturated = 0;     // cells at the bound
-  double least = 0;         // least g
+  double saturated = 0;     // number of cells at the bound
+  double least = 0;         // minimum of g
 };
 
-// A row of cells whose gap is computed afresh.
+// A row of cells whose gap is computed anew from the displacement u.
 struct GapRow {
   const double* heights;
-  double zero;      // of the heights
+  double zero;      // height from which heights count
   const double* p;  // pressure
-  const unsigned char*
-      in_use;  // of each tile: 0 where p is zero, which is not read; nullptr: p is read everywhere
-  std::ptrdiff_t count;  // cells
-  double bound;          // largest pressure allowed
-  double plane;          // close to the contact plane
-  double
-      // g is written on tiles whose `nearest` is below this: what is far away is not read again
-      kept_below;
-  double* g;        // u − (heights − zero)
-  double* nearest;  // of each tile: its least g; −∞ where a cell of it carries load
+  // One for each tile: 0 where p is zero and is not read; nullptr: p is read everywhere.
+  const unsigned char* in_use;
+  std::ptrdiff_t count;  // number of cells
+  double bound;          // upper bound of the pressure
+  double plane;          // approximate height of the contact plane
+  // g is written only on tiles whose minimum of g is below this value: large gaps are not read
+  // again.
+  double kept_below;
+  double* g;        // displacement − (height − zero)
+  double* nearest;  // minimum of g in each tile; −∞ if a cell of it carries load
 };
 
-// begin and end count tiles. Where a row is given they are the tiles of that row, and it holds its
-// ny cells.
+// The passes. begin and end are indices of tiles; if a row of ny cells is passed, they are the
+// tiles of that row. Multiplication by m restricts a field to the free cells; z, t, w, p, g and r
+// are the fields of TileArrays.
 template <class Real>
 struct TileKernels {
-  // r = m(g − level)
-  void (*residual)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height);
-  // z = m(S r)
+  // r = m(g − plane_height)
+  void (*residual)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                   double plane_height);
+  // z = m(S r), where S is the stencil
   PreconditionSums (*precondition)(const TileArrays<Real>&, std::ptrdiff_t begin,
                                    std::ptrdiff_t end);
-  // t = m(z − z_mean + beta(t − t_mean)), and into the row
+  // New search direction t = m(z − z_mean + beta(t − t_mean)); also writes t into `row`.
   void (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                  const NewDirection& direction, Real* row);
-  // w from the row
+  // Reads w, the displacement by t, from `row`.
   CurvatureSums (*take_image)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                               const Real* row);
-  // p −= alpha t, g −= alpha w, r = m(g − level)
+  // p −= alpha t, g −= alpha w, r = m(g − plane_height)
   StepSums (*step)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
                    double plane_height);
-  // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
+  // Changes the set of free cells: frees held cells whose gap has the wrong sign, and holds free
+  // cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double plane_height);
-  // Does so, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
-  // or more, z the change of p.
-  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height,
-                   const Truncation& correction);
-  // z into the row
+  // Changes the set of free cells like change_set(), and sets p to min(scale·max(p, 0) + shift,
+  // bound), or to the bound if p >= full_from. z receives the change of p.
+  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                   double plane_height, const Truncation& correction);
+  // Writes z, the change of p by truncate(), into `row`.
   void (*spread_change)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         Real* row);
-  // g += row; the free cells and Σg as they are then. r has to be made again.
+  // Adds the displacement in `row` to g; returns the number of free cells and Σg over them. r must
+  // be computed anew afterwards.
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                               const Real* row);
 
-  // g and `nearest` of a row from its displacement, and what the contact plane follows from.
+  // Computes g and the minimum of g in each tile from the displacement u of a row, and the sums
+  // that give the contact plane.
   GapSums (*gap)(const Real* u, const GapRow&);
   GapSums (*exact_gap)(const double* u, const GapRow&);
-  // Σp over consecutive cells, p clipped to [0, bound] first.
+  // Clips `count` consecutive pressures to [0, bound] and returns their sum.
   double (*clip)(double* p, std::ptrdiff_t count, double bound);
 };
 
-// The table for the widest vectors that this processor has.
+// The kernels for the widest vectors that this processor has.
 template <class Real>
 const TileKernels<Real>& tile_kernels();
 
-// The tables of each width; the last two exist in builds for x86-64.
+// The kernels for each vector width; avx2 and avx512 exist only in builds for x86-64.
 namespace baseline {
 TileKernels<float> table_float();
 TileKernels<double> table_double();

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included once for each instruction set, with SALEBRA_SIMD naming it.
-#include "tile_kernels.hpp"
-
+// Included once for each instruction set, which SALEBRA_SIMD names.
 #include "contact/half_space/stencil_loop.inl"
+#include "tile_kernels.hpp"
 
 namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
 
-// One partial sum for each cell of a tile: adding them up at the end only keeps the loops free of
-// horizontal sums.
+// One partial sum for each of the 16 cell positions of a tile. The 16 partial sums are added only
+// at the end, because adding numbers within a vector register is slow.
 struct Lanes {
   double value[tile_width] = {};
   double sum() const {
@@ -17,7 +16,7 @@ struct Lanes {
     for (int lane = 0; lane < tile_width; ++lane) total += value[lane];
     return total;
   }
-  // Goes by halves, which vectorises.
+  // The minimum of the 16 numbers; halves their count at each step, because that vectorises.
   double least() const {
     Lanes left = *this;
     for (int half = tile_width / 2; half > 0; half /= 2)
@@ -32,11 +31,12 @@ struct FullWidth {
   constexpr operator Size() const { return tile_width; }
 };
 
-// The residual is read in strides that the prefetcher does not predict: prefetch this many tiles
-// ahead.
+// The residual is read in strides that the processor's prefetcher does not predict: prefetch this
+// many tiles ahead.
 inline constexpr Size ahead = 16;
 
-// What a pass reads of the residual: nothing, its own cells, or all that the stencil reaches.
+// Cells of the residual that a pass reads: no cell, the cells of the tile, or all cells within
+// reach of the stencil.
 enum class Reads { packed, residual, halo };
 
 template <Reads reads, class Real>
@@ -47,20 +47,20 @@ SALEBRA_INLINE void fetch(const TileArrays<Real>& a, const Tile& tile) {
   if constexpr (reads == Reads::halo) __builtin_prefetch(r + halo * a.halo_stride);
 }
 
-// Where a tile's cells are.
+// Indices of the first cell of a tile in packed arrays, in fields with a halo, and in its row.
 struct Place {
   Size packed, with_halo, column;
 };
 
-// Calls body(place, width) for each tile; width is a constant for all but the last of a row.
-// quiet_body likewise, where the tile is quiet.
+// Calls body(index, width) for each tile that is not quiet and quiet_body(index, width) for each
+// quiet tile (without free or loaded cells); width, the number of cells, is a compile-time constant
+// except in the last tile of a row.
 template <Reads reads, class Real, class Body, class QuietBody>
 SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body,
                               const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
-    const Place index = {k * tile_width, (row + halo) * a.halo_stride + column + side_halo,
-                         column};
+    const Place index = {k * tile_width, (row + halo) * a.halo_stride + column + side_halo, column};
     const bool whole = a.ny - column >= tile_width;
     if (k + ahead < a.tile_count) fetch<reads>(a, a.tiles[k + ahead]);
     if (a.quiet[k]) {
@@ -77,15 +77,16 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
   }
 }
 
-// Does so where a quiet tile adds nothing and does not change.
+// Like for_tiles(), but skips quiet tiles, for passes to which quiet tiles add nothing and in which
+// they do not change.
 template <Reads reads, class Real, class Body>
 SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size end,
                                      const Body& body) {
   for_tiles<reads>(a, begin, end, body, [](const Place&, auto) {});
 }
 
-// Whether any of a tile's numbers is not +0, from their bits: the test of each number would not
-// vectorise.
+// Whether any number of a tile differs from +0. It compares bits, because testing each number would
+// not vectorise.
 template <class Number, class Width>
 SALEBRA_INLINE bool any(const Number* tile, Width width) {
   unsigned long long bits = 0;
@@ -100,7 +101,7 @@ SALEBRA_INLINE bool any(const Number* tile, Width width) {
   return bits != 0;
 }
 
-// Lets a tile rest whose cells are all held and without load.
+// Marks a tile as quiet if all its cells are held and without load.
 template <class Real, class Width>
 SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& index, Width width) {
   if (any(a.m + index.packed, width) || any(a.p + index.packed, width)) return;
@@ -108,7 +109,7 @@ SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& index, Width wi
   for (Size i = 0; i < width; ++i) a.t[index.packed + i] = 0;
 }
 
-// Whether a cell without load is below the plane.
+// Whether any cell of a tile without load lies below the contact plane.
 template <class Width>
 SALEBRA_INLINE bool any_below(const double* g, double plane_height, Width width) {
   int below = 0;
@@ -132,12 +133,14 @@ void residual(const TileArrays<Real>& a, Size begin, Size end, double plane_heig
 }
 
 template <class Real>
-SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, FullWidth, Real* sums) {
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, FullWidth,
+                                  Real* sums) {
   StencilLoop<Real, halo>::apply(a.r + with_halo, a.halo_stride, a.stencil, sums);
 }
 
 template <class Real>
-SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, Size width, Real* sums) {
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, Size width,
+                                  Real* sums) {
   for (Size c = 0; c < width; ++c) {
     Real sum = 0;
     for (int i = -halo; i <= halo; ++i)
@@ -178,15 +181,14 @@ PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
 template <class Real>
 void direct(const TileArrays<Real>& a, Size begin, Size end, const NewDirection& direction,
             Real* row) {
-  // Not read again behind each store.
+  // Local copies of the numbers: otherwise the compiler reloads them after each store.
   const double z_mean = direction.z_mean, beta = direction.beta, t_mean = direction.t_mean;
   for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& index, auto width) {
     const Real *m = a.m + index.packed, *z = a.z + index.packed;
     Real *t = a.t + index.packed, *cells = row + index.column;
     for (Size i = 0; i < width; ++i) {
-      const double x =
-          static_cast<double>(m[i]) *
-          (static_cast<double>(z[i]) - z_mean + beta * (static_cast<double>(t[i]) - t_mean));
+      const double x = static_cast<double>(m[i]) * (static_cast<double>(z[i]) - z_mean +
+                                                    beta * (static_cast<double>(t[i]) - t_mean));
       t[i] = static_cast<Real>(x);
       cells[i] = static_cast<Real>(x);
     }
@@ -267,8 +269,8 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           misfit.sum(),  signed_misfit.sum(), saturated.sum(), lowest};
 }
 
-// 1 for a cell that is free from now on, else 0; in numbers, because mixed tests of float and
-// double do not vectorise.
+// Returns 1 for a cell that is free from now on, otherwise 0. Conditions are numbers instead of
+// bool, because mixed comparisons of float and double do not vectorise.
 SALEBRA_INLINE double freed(double free, double p, double g, double plane_height, double bound) {
   const double above = p < 0 ? 0.0 : 1.0, stays = p > bound ? 0.0 : above;
   const double open = g > plane_height ? 1.0 : 0.0, closed = g < plane_height ? 1.0 : 0.0;
@@ -313,7 +315,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double plane_heig
       const double within = above < bound ? above : bound;
       const double kept = p[i] < full_from ? within : bound;
       const double free = freed(static_cast<double>(m[i]), p[i], g[i], plane_height, bound);
-      // A held cell that the correction of the load took off its bound is free again.
+      // A held cell that the load correction moved off its bound becomes free.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
       m[i] = static_cast<Real>(inside > free ? inside : free);
       z[i] = static_cast<Real>(kept - p[i]);
@@ -356,7 +358,7 @@ SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end, const 
   return {count.sum(), sum.sum()};
 }
 
-// Calls body(first, width) for runs of 16 cells and the rest.
+// Calls body(first, width) for each run of 16 of `count` cells, and for the cells that remain.
 template <class Body>
 SALEBRA_INLINE void for_runs(Size count, const Body& body) {
   Size first = 0;
@@ -416,18 +418,10 @@ double clip(double* p, Size count, double bound) {
 
 template <class Real>
 TileKernels<Real> table() {
-  return {residual<Real>,
-          precondition<Real>,
-          direct<Real>,
-          take_image<Real>,
-          step<Real>,
-          change_set<Real>,
-          truncate<Real>,
-          spread_change<Real>,
-          add_displacement<Real>,
-          gap<Real>,
-          gap<double>,
-          clip};
+  return {residual<Real>,   precondition<Real>,  direct<Real>,
+          take_image<Real>, step<Real>,          change_set<Real>,
+          truncate<Real>,   spread_change<Real>, add_displacement<Real>,
+          gap<Real>,        gap<double>,         clip};
 }
 
 TileKernels<float> table_float() { return table<float>(); }

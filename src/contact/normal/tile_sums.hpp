@@ -2,15 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <salebra/base/partition.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "tile_kernels.hpp"
 
 namespace salebra::detail {
 
-// Sums of kernels over parts of the grid, brought together. Not in tile_kernels.hpp, which has no
-// inline functions.
+// Adds up the sums that kernels return for parts of the grid. These functions are not in
+// tile_kernels.hpp, because that header must not have inline functions.
 
 inline void add(PreconditionSums& total, const PreconditionSums& part) {
   total.z += part.z;
@@ -40,7 +40,7 @@ inline void add(SetSums& total, const SetSums& part) {
   total.count += part.count;
   total.g += part.g;
 }
-// Sums over the cells of a punch: its load, and how far its displacement is from 1.
+// Sums over the cells of a punch: its load, Σ(1 − displacement)², and the number of cells.
 struct PunchSums {
   double load = 0, misfit = 0, cells = 0;
 };
@@ -59,7 +59,8 @@ inline void add(GapSums& total, const GapSums& part) {
   total.least = std::min(total.least, part.least);
 }
 
-// In the order of the parts, so that the sum has the same bits for every thread count.
+// Adds the sums of all parts in their order, so that the total has the same bits for every thread
+// count.
 template <class Sums>
 Sums total_of(const std::vector<Sums>& parts) {
   Sums total = parts.front();
@@ -67,8 +68,8 @@ Sums total_of(const std::vector<Sums>& parts) {
   return total;
 }
 
-// The sums of the rows of this process, added within each block of parallel.hpp, and those of all
-// processes. Collective.
+// Adds the sums of this process's rows within each block of rows (parallel.hpp), and returns the
+// sums of the blocks of all processes. Collective.
 template <class Sums>
 std::vector<Sums> by_blocks(const RowPartition& partition, const std::vector<Sums>& rows) {
   const auto size = static_cast<std::size_t>(parallel::block_rows(partition.rows()));

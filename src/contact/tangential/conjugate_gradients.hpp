@@ -10,18 +10,20 @@ namespace salebra::detail {
 
 struct CgOutcome {
   int iterations = 0;  // steps taken
-  // A direction without curvature: round-off has used up the system's accuracy.
+  // A direction with d·Ad <= 0 was found: round-off has used up the accuracy of the system.
   bool exhausted = false;
 };
 
-// Preconditioned conjugate gradients on A x = b for vectors of points, A symmetric and positive.
-//   apply(x, Ax), precondition(misfit, z)
-//   stop(|misfit|², iterations)  before each step; true ends it
-//   dot(a, b)                    Σ a_i b_i
-//   x, misfit                    the guess and b − Ax on entry; both are up to date on return
-// β = −<z, Ad>/<d, Ad> makes the new direction conjugate to the last one d even where
-// precondition() is not linear. ActiveSetCg, gradient_projection and InteractingSummits have
-// separate loops; each says why.
+// Preconditioned conjugate gradients on A x = b for vectors of points; the matrix A is symmetric
+// and positive definite.
+//   apply(x, Ax)                  computes Ax
+//   precondition(misfit, z)       computes z ≈ A⁻¹·misfit
+//   stop(|misfit|², iterations)   called before each step; true ends the iteration
+//   dot(a, b)                     Σ a_i b_i
+//   x, misfit                     on entry the guess and b − Ax; x and misfit are current on return
+// The factor β = −<z, Ad>/<d, Ad> of the last direction d makes the new direction conjugate to d
+// even if precondition() is not linear. ActiveSetCg, gradient_projection and InteractingSummits
+// have their own loops, for reasons given there.
 template <class Apply, class Precondition, class Stop, class Dot>
 CgOutcome conjugate_gradients(const Apply& apply, const Precondition& precondition,
                               const Stop& stop, const Dot& dot, std::vector<double>& x,

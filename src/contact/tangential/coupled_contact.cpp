@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frictional contact with Dundurs coupling: normal and slip solves in turn until nothing changes.
+// Frictional contact with Dundurs coupling: alternates a solve for pressures and one for tractions
+// (together a sweep) until pressures and tractions no longer change.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -10,14 +11,15 @@
 namespace salebra {
 namespace {
 
-// What a solve may leave, in tolerances of its own, as part of the change of the sweep before in
-// tolerances of the sweeps. Most sweeps change a thirtieth of what the last one did, and the fourth
-// is then the first with solves as sharp as the options ask, and the last.
+// Accuracy of the solves of a sweep. The looseness of a solve, its residual in units of its own
+// tolerance, is this fraction of the change of the previous sweep in units of the sweeps'
+// tolerance. Most sweeps change a thirtieth of what the previous one changed; the fourth is then
+// the first whose solves are as accurate as the options require, and the last.
 constexpr double inner_share = 0.005;
 constexpr double loosest_contact = 1e-2;
 constexpr double first_looseness = 1000;
-// A sweep that changed less was lucky, and one that changed more than this was round-off: the error
-// falls by about β² < 1/4.
+// Bounds of the ratio of the changes of two successive sweeps. A smaller ratio was luck and a
+// larger one round-off: the error falls by the square of Dundurs' constant β, β² < 1/4, per sweep.
 constexpr double min_fall = 0.1, max_fall = 0.99;
 
 }  // namespace
@@ -30,7 +32,7 @@ struct CoupledContact::Parts {
   double dundurs;
   NormalTangentialCoupling coupling;
   SlidingContact sliding;
-  CoupledState kept;  // without that of `sliding`
+  CoupledState kept;  // without the state of `sliding`
 
   Parts(const Surface& given, const Material& material, const CoupledContactOptions& wanted)
       : surface(given),
@@ -49,9 +51,9 @@ struct CoupledContact::Parts {
 
   double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
 
-  // Presses to the same rigid approach above a surface that the tractions have displaced by `sunk`;
-  // cells `out` stay out of the contact, so that the others carry what these would. Their gap may
-  // be below 0.
+  // Presses a surface that the tractions have lowered by `sunk` to the rigid approach `approach`.
+  // Cells in `out` stay out of the contact, so that the other cells carry their load; the gap of
+  // such a cell may be below 0.
   NormalContactState press(double approach, const Field& sunk, Field guess, const ContactSet& out,
                            double looseness) const {
     Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};
@@ -84,8 +86,8 @@ CoupledContact::CoupledContact(const Surface& surface, const Material& material,
           "must lie in 1e-12 … 0.1");
   require(options.max_sweeps >= 1, "max_sweeps", options.max_sweeps, "must be >= 1");
   if (options.contact.boundary != options.sliding.stick.boundary)
-    throw InvalidInput("boundary",
-                       "differs between the normal and the tangential solves; give one");
+    throw InvalidInput(
+        "boundary", "differs between the normal and the tangential solves; give the same for both");
   parts_ = std::make_unique<Parts>(surface, material, options);
 }
 CoupledContact::CoupledContact(CoupledContact&&) noexcept = default;
@@ -95,8 +97,8 @@ CoupledContact::~CoupledContact() = default;
 CoupledReport CoupledContact::advance(double indentation, const TangentialMove& move) {
   Parts& p = *parts_;
   const double force_before = p.force();
-  // While the contact is small, so are the displacements that the coupling makes: sweeps end only
-  // if the solves resolve them.
+  // The displacements by coupling are small if the contact is small, and the sweeps end only if the
+  // solves resolve these displacements.
   const double scale =
       std::hypot(move.x, move.y) + std::abs(p.dundurs) * std::max(indentation, 0.0);
   const double motion_scale =
@@ -108,14 +110,15 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   TangentialField traction = p.sliding.traction(increment);
   Field gap;
   Termination solved = Termination::iteration_limit;
-  // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has
-  // left once too often stays out.
+  // Without a friction limit a cell at the edge may carry traction in every second sweep only,
+  // without end. After this many sweeps, a cell that leaves the contact stays out.
   constexpr int patience = 8;
   ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
   bool still = false;
   double looseness = p.dundurs == 0 ? 1 : first_looseness;
   while (!still && report.sweeps < p.options.max_sweeps) {
-    // Solves become sharper with the sweeps, and the last ones are as sharp as the options ask.
+    // Solves become more accurate from sweep to sweep; those of the last sweeps are as accurate as
+    // the options require.
     if (report.sweeps > 0)
       looseness = std::clamp(inner_share * report.change / p.options.tolerance, 1.0, looseness);
     p.sliding.set_motion_scale(looseness * motion_scale);
@@ -135,8 +138,9 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     const double before = report.change;
     report.change = total > 0 ? change / total : 0;
     ++report.sweeps;
-    // What remains, where the sweeps to come fall as this one fell from the last. Nothing that is
-    // less than the solvers' own error can be asked for.
+    // If the changes of all further sweeps fall in the same ratio, their sum must be below the
+    // tolerance. A ratio near 1 means that the change is the solvers' own error, below which no
+    // change can be required.
     const double fall = std::min(max_fall, std::max(min_fall, report.change / before));
     still = looseness == 1 && report.sweeps > 1 &&
             report.change * fall < (1 - fall) * p.options.tolerance;
@@ -166,7 +170,8 @@ CoupledState CoupledContact::state() const {
 void CoupledContact::restore(CoupledState state) {
   Parts& p = *parts_;
   require(state.gap.rows() == p.surface.grid.nx && state.gap.cols() == p.surface.grid.ny, "state",
-          state.gap.size(), "cells do not match the grid; resume with the run's own settings");
+          state.gap.size(),
+          "cells do not match the grid; resume with the settings of the first run");
   p.sliding.restore(std::move(state.sliding));
   p.kept = std::move(state);
 }
@@ -180,7 +185,7 @@ Termination CoupledContact::termination() const { return parts_->kept.terminatio
 
 double CoupledContact::stored_energy() const {
   const Parts& p = *parts_;
-  // In contact the surface lies where the body is.
+  // In contact the displaced surface coincides with the rigid body.
   const Field normal =
       p.sliding.contact_pressure() * (p.kept.indentation - (p.highest - p.surface.heights));
   return p.sliding.tangential_energy() + p.surface.grid.cell_area() / 2 * normal.sum();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quadratic programme of partial slip: tractions within |τ| <= μp, by Newton steps on faces.
+// Quadratic programme of partial slip: tractions τ with |τ| <= μp, found by Newton steps. A face is
+// the set of tractions at which given points are at their limit and all other points below it.
 #include "disc_problem.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace salebra::detail {
 namespace {
 
-// The part of what is left of a misfit that the error of single precision may be.
+// Allowed error by single precision, as a fraction of the remaining misfit of the displacements.
 constexpr double allowed_error = 0.01;
 
 double largest(const std::vector<double>& vector) {
@@ -43,7 +44,8 @@ void DiscProblem::for_values(const Body& body) const {
   for_each(targets_.size(), 2 * targets_.size(), body);
 }
 
-// body(point, each), where each(visit) calls visit(i) for the places of its components.
+// Calls body(point, each) for all points; each(visit) calls visit(i) for the indices i of the
+// point's components.
 template <class Body>
 void DiscProblem::for_points(const Body& body) const {
   const std::size_t points = count(), work = 4 * targets_.size();
@@ -75,7 +77,8 @@ DiscProblem::Iterate DiscProblem::evaluated(std::vector<double> tractions) {
   return iterate;
 }
 
-// The response to what has changed, in single precision, is added to what is known.
+// Evaluates new tractions: adds the response to the change of the tractions, in single precision,
+// to the known response of `from`.
 DiscProblem::Iterate DiscProblem::moved(const Iterate& from, std::vector<double> tractions) {
   std::vector<double> change(tractions.size());
   for_values([&](std::size_t i) { change[i] = tractions[i] - from.tractions[i]; });
@@ -117,7 +120,7 @@ DiscProblem::Face DiscProblem::face_of(const Iterate& iterate) const {
     double outward = 0;
     each(
         [&](std::size_t i) { outward -= iterate.tractions[i] / limits_[k] * iterate.gradient[i]; });
-    // Pulled inwards, the point sticks again.
+    // If the gradient pulls the traction of a point inwards from its limit, the point sticks again.
     if (outward < 0) return;
     face.bound[k] = 1;
     face.curvature[k] = outward / limits_[k];
@@ -126,7 +129,8 @@ DiscProblem::Face DiscProblem::face_of(const Iterate& iterate) const {
   return face;
 }
 
-// vector = value(i, point), less what of it the face does not allow.
+// Sets `vector` to value(i, point) for each component i, without the part that the face does not
+// allow.
 template <class Value>
 void DiscProblem::project_on(const Face& face, std::vector<double>& vector,
                              const Value& value) const {
@@ -148,15 +152,15 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
   const std::size_t unknowns = targets_.size();
   std::vector<double> solution(unknowns, 0.0), misfit(unknowns), scaled(unknowns), scale(count());
   project_on(face, misfit, [&](std::size_t i, std::size_t) { return -iterate.gradient[i]; });
-  // The stencil is the inverse of K, but for a factor, not of K + Λ: where the curvature Λ prevails,
-  // the inverse is 1/Λ.
+  // Up to a factor the stencil is the inverse of the compliance K, not of K + Λ, where the diagonal
+  // Λ is the curvature of the limits: where Λ prevails, the inverse is 1/Λ.
   for_points([&](std::size_t k, const auto&) {
     scale[k] = 1 / std::sqrt(1 + cell_stiffness_ * face.curvature[k]);
   });
   const double goal =
       std::max(reduction * std::sqrt(dot(misfit, misfit)), 0.3 * tolerance_ * root_of_count());
-  // What the response to the step in single precision would leave in error_bound, beside what is to be
-  // left of the misfit.
+  // Error that the response to the step would have in single precision; at the end it is compared
+  // with the misfit that may remain.
   const double error_bound = iterate.error_bound + SurfaceResponse::loose_error * largest(misfit);
   const int before = report.iterations;
   const CgOutcome outcome = conjugate_gradients(
@@ -178,14 +182,15 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
         return std::sqrt(square) <= goal || before + iterations >= max_iterations;
       },
       dot, solution, misfit);
-  // A step that the system's accuracy did not allow has cost as much as one taken.
+  // A step that round-off prevented has cost as much as a step that was taken.
   report.iterations += outcome.iterations + (outcome.exhausted ? 1 : 0);
-  return {std::move(solution), /*small=*/doubt < allowed_error * goal / root_of_count()};
+  return {std::move(solution), /*small=*/error_bound < allowed_error * goal / root_of_count()};
 }
 
-// Armijo's rule for the energy, which a step d changes by d·(g + g')/2, with room for round-off.
+// Whether a trial lowers the energy enough (Armijo's rule), with an allowance for round-off. A step
+// d from gradient g to gradient g' changes the energy by d·(g + g')/2.
 bool DiscProblem::accept(Iterate&& trial, Iterate& iterate) const {
-  using Sums = Eigen::Array3d;  // g·d, the change, and its noise
+  using Sums = Eigen::Array3d;  // g·d, the change of energy, and its round-off
   const Index unknowns = static_cast<Index>(targets_.size());
   Sums sums = Sums::Zero();
   for (const Sums& part : parallel::map_blocks<Sums>(
@@ -241,7 +246,7 @@ bool DiscProblem::gradient_step(Iterate& iterate) {
       gradient_length_ /= 4;
       continue;
     }
-    // Barzilai and Borwein's length for the next one.
+    // Barzilai and Borwein's length for the next gradient step.
     double path = 0, curvature = 0;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const double moved = iterate.tractions[i] - before.tractions[i];
@@ -280,7 +285,8 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
     bool moved = false;
     if (newton_) {
       Face face = face_of(iterate);
-      // While the slipping part still changes, an exact answer for it is of no use.
+      // While the set of slipping points still changes, an accurate solution for the current set is
+      // of no use.
       const double reduction = face.bound == last_bound ? 1e-3 : 0.1;
       const Direction direction =
           newton_direction(iterate, face, reduction, max_iterations, report);
@@ -292,13 +298,13 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
       moved = gradient_step(iterate);
     }
     ++report.steps;
-    if (!moved) {  // round-off has used up the energy's accuracy
+    if (!moved) {  // round-off has used up the accuracy of the energy
       report.termination = Termination::stalled;
       break;
     }
   }
-  // |τ − κg| exceeds the limit of a point that slips. (|τ| itself may be short of a limit that has
-  // grown by less than the tolerance since the guess.)
+  // A point slips if |τ − κg| exceeds its limit, with traction τ, gradient g and a cell stiffness
+  // κ. |τ| itself may be below a limit that has grown by less than the tolerance since the guess.
   std::vector<unsigned char> slipping(count());
   for_points([&](std::size_t k, const auto& each) {
     const bool slips = length(each, [&](std::size_t i) {
@@ -321,8 +327,9 @@ PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& sys
                               const KnownResponse* known) {
   const StickOptions& options = workspace.options();
   const Material& material = workspace.material();
-  // K̂ = (2π/q)(c1 + c2 …) lies between the values along and across the wave; 2/(E q) with their
-  // mean.
+  // The Fourier transform of the compliance, (2π/q)(c1 + c2 …) with Cerruti's constants c1 and c2
+  // and the wave number q, lies between its values for tractions along and across the wave; E in
+  // 2/(E q) is set to the mean of these two.
   const double stiffness_scale =
       1 / (std::numbers::pi * (material.cerruti_isotropic + material.cerruti_directed / 2));
   DiscProblem problem(system, points, std::move(limits), std::move(targets), stiffness_scale);

@@ -10,55 +10,59 @@
 
 namespace salebra::detail {
 
-/// A traction that was projected on its limit stays there up to so much of it.
+/// A traction within this relative distance of its limit counts as at the limit.
 inline constexpr double limit_round_off = 1e-12;
 
-/// Tractions whose displacements are known.
+/// Tractions whose displacements have been computed before.
 struct KnownResponse {
   const std::vector<double>& tractions;
   const std::vector<double>& displacements;
   double error = 0;  ///< of the displacements, m
 };
 
-/// minimise ½ τ·Kτ − τ·v with |τ_i| <= limit_i, the quadratic programme of PartialSlipSolver, on
-/// the points of a contact set. A vector is (components × points); with one component the discs are
-/// intervals. Where the limit is 0, τ is, and the point tells only where it goes.
+/// Minimises ½ τ·Kτ − τ·v over the tractions τ with |τ_i| <= limit_i at each point i, where K is
+/// the tangential compliance and v the target displacements: the quadratic programme of
+/// PartialSlipSolver, on the points of a contact set. A vector is (components × points); the limit
+/// makes the traction of a point lie in a disc, or with one component in an interval. A point with
+/// limit 0 has no traction; only its displacement is computed.
 class DiscProblem {
  public:
-  /// limits: for each point, >= 0, Pa, may be infinite. stiffness_scale: E of K ≈ 2/(E q), Pa.
+  /// limits: one for each point, >= 0, Pa, may be infinite. targets: displacements v, m.
+  /// stiffness_scale: the modulus E, Pa, in the approximate compliance 2/(E q) at wave number q.
   DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
               std::vector<double> targets, double stiffness_scale);
 
-  /// From a guess, which need not be feasible, to residual < tolerance, m. On return `slip` is
-  /// v − Kτ where a point slips, as it does where its limit is 0, and 0 elsewhere. `known`, near the
-  /// guess, saves a response in double precision; nullptr: none.
+  /// Solves from the given tractions, which may exceed their limits, to residual < tolerance, m. On
+  /// return `slip` is target minus displacement at points that slip, including points with limit 0,
+  /// and 0 at all other points. `known`, if its tractions are near the given ones, saves a response
+  /// in double precision; nullptr: none.
   PartialSlipReport solve(double tolerance, int max_iterations, const Progress& progress,
                           std::vector<double>& tractions, std::vector<double>& slip,
                           const KnownResponse* known = nullptr);
 
-  /// Takes only projected gradient steps, which is slow and always converges: the Newton steps'
-  /// fallback, for tests of it.
+  /// Takes only projected gradient steps, which are slow but always converge. Tests use this to
+  /// check the fallback for Newton steps that fail.
   void use_gradient_steps_only() { newton_ = false; }
 
  private:
-  // What a Newton step may change: everything in free points, the direction of traction in bound
-  // ones, nothing where there is no limit.
+  // The tractions that a Newton step may change: both components at free points, only the direction
+  // at points at their limit (bound), and none at points with limit 0.
   struct Face {
-    std::vector<unsigned char> bound;  // of each point
-    std::vector<double> normal;        // τ/|τ| of a bound point, else 0 (components × points)
-    std::vector<double> curvature;     // λ = |g|/limit of a bound point, else 0, m/Pa
+    std::vector<unsigned char> bound;  // for each point
+    std::vector<double> normal;     // τ/|τ| of a bound point, otherwise 0 (components × points)
+    std::vector<double> curvature;  // |gradient|/limit of a bound point, otherwise 0, m/Pa
   };
   struct Iterate {
     std::vector<double> tractions, gradient;
-    double error_bound = 0;  // how far the gradient may be off, m
+    double error_bound = 0;  // bound of the error of the gradient, m
   };
   struct Direction {
     std::vector<double> step;  // Pa
-    bool small = false;        // enough for the response to it in single precision
+    bool small = false;        // whether single precision suffices for its response
   };
 
   std::size_t count() const { return limits_.size(); }
-  // Root of the number of cells that can carry traction.
+  // Square root of the number of points that can carry traction.
   double root_of_count() const { return std::sqrt(static_cast<double>(open_)); }
   template <class Body>
   void for_values(const Body& body) const;
@@ -83,13 +87,14 @@ class DiscProblem {
   const PointList& points_;
   std::vector<double> limits_, targets_;
   double cell_stiffness_;   // κ, Pa/m
-  double gradient_length_;  // of the last projected gradient step, Pa/m
+  double gradient_length_;  // length of the last projected gradient step, Pa/m
   double tolerance_ = 0;    // of the residual, m
-  std::ptrdiff_t open_;     // points of a limit > 0
+  std::ptrdiff_t open_;     // number of points with a limit > 0
   bool newton_ = true;
 };
 
-/// PartialSlipSolver::solve on points of its workspace.
+/// PartialSlipSolver::solve() on points of its workspace; `scale` multiplies the tolerance of its
+/// options.
 PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& system,
                               const PointList& points, std::vector<double> limits,
                               std::vector<double> targets, double scale,

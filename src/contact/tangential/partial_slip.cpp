@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partial-slip solver on a contact set: tractions for given displacements and friction limits.
+// Partial slip on a contact set: tractions for given displacements and friction limits.
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/partial_slip.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tangential contact with Coulomb friction in increments of pressure and of the rigid displacement.
+// Tangential contact with Coulomb friction, in increments of pressure and rigid tangential
+// displacement.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,13 +30,15 @@ void validate(const SlidingContactOptions& options) {
   require_positive(options.motion_scale, "motion_scale");
 }
 
-// Where cells enter is known to the square of an increment only. The solve that says it may leave so
-// many times what others may, as long as this is a small part of the motion.
+// Factor by which the tolerance of the solve for the displacements of entering cells may exceed
+// that of other solves, as long as its error is a small part of the motion: these displacements are
+// accurate only to the square of an increment.
 double entry_looseness(double tolerance) { return std::clamp(1e-4 / tolerance, 1.0, 100.0); }
 
-// A cell that enters and ends at the pressure p is in contact for a part min(c p², 1) of an
-// increment, since near the edge of a contact p² grows in proportion to the indentation. The factor
-// c, for which the cells that end at these pressures are in contact for half of it on average.
+// A cell that enters the contact during an increment and ends at the pressure p is in contact for
+// the fraction min(c p², 1) of the increment, because p² near the edge of a contact grows in
+// proportion to the indentation. Returns the factor c for which the cells with these final
+// pressures are in contact for half of the increment on average.
 double entry_factor(const Values& pressures) {
   const double least = *std::ranges::min_element(pressures);
   double low = 0, high = 1 / (least * least);
@@ -76,7 +79,7 @@ void SlidingContact::restore(SlidingState state) {
         &state.traction.y, &state.displacement.x, &state.displacement.y, &state.pressure_before,
         &state.traction_before.x, &state.traction_before.y})
     require(field->rows() == grid.nx && field->cols() == grid.ny, "state", field->size(),
-            "cells do not match the grid; resume with the run's own settings");
+            "cells do not match the grid; resume with the settings of the first run");
   require_positive(state.motion_scale, "motion_scale");
   state_ = std::move(state);
   if (state_.prepared.size() > 0) reserve(state_.prepared);
@@ -115,7 +118,7 @@ void SlidingContact::require_pressure(const Field& pressure) const {
 void SlidingContact::slide(const Field& pressure, const TangentialMove& direction) {
   require_pressure(pressure);
   require(std::isfinite(options_.friction_coefficient), "friction_coefficient",
-          options_.friction_coefficient, "never slides; give a finite one");
+          options_.friction_coefficient, "never slides; give a finite coefficient");
   require(options_.stick.hold_lateral || direction.y == 0, "direction", direction.y,
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
   const double length = std::hypot(direction.x, direction.y);
@@ -136,9 +139,9 @@ void SlidingContact::slide(const Field& pressure, const TangentialMove& directio
   note_cells();
 }
 
-/// An increment as it is computed: vectors of the cells in contact before or after it. A cell that
-/// is out of contact before or after has no limit then, and its displacement is read off all the
-/// same.
+/// One increment during its computation. Vectors hold the cells that are in contact before the
+/// increment or after it. A cell that is out of contact before or after has the limit 0 at that
+/// time, but its displacement is computed all the same.
 class SlidingContact::Attempt {
  public:
   Attempt(SlidingContact& contact, const Field& pressure, const TangentialMove& move,
@@ -188,8 +191,8 @@ class SlidingContact::Attempt {
     return i < points_.cell.size() ? increment_.move.x : increment_.move.y;
   }
 
-  // Takes the tractions of the guess. Where they were at their limit they are carried to the new
-  // one: what slipped is taken to slip on.
+  // Starts from the tractions of another increment. Tractions at their limit are scaled to the new
+  // limit, because points that slipped are expected to slip further.
   void begin_from(const Increment& guess) {
     const std::size_t count = points_.cell.size(), given = guess.cells.size();
     for (std::size_t k = 0, at = 0; k < count; ++k) {
@@ -209,8 +212,8 @@ class SlidingContact::Attempt {
     }
   }
 
-  // K times the tractions before. Of the cells in contact it is known, to the tolerance, but not of
-  // those that enter.
+  // Computes the displacements by the previous tractions. For cells in contact they are known
+  // within the tolerance, for cells that enter they are not.
   void respond() {
     Values& before = increment_.displacement_before;
     if (entering_pressures_.empty()) {
@@ -226,14 +229,15 @@ class SlidingContact::Attempt {
       if (enters(i)) before[i] = response_[i] + shift_before_[i];
   }
 
-  // Where the cells that enter are at the end of the increment, if they stick.
+  // Computes the displacement that the cells that enter would have at the end of the increment if
+  // they stick.
   Termination place_entering() {
     const Values& before = increment_.displacement_before;
     Values in_middle = before;
     Termination termination = Termination::converged;
     if (!stays_put_ && !all_enter()) {
-      // Half of the increment with the cells that are in contact already: where it takes those that
-      // enter in its middle.
+      // Solves half of the increment with only the cells already in contact, which gives the
+      // displacement at mid-increment of the cells that enter.
       Values targets(size_);
       for (std::size_t i = 0; i < size_; ++i)
         targets[i] = before[i] + (enters(i) ? 0 : distance(i) / 2) - shift_halfway(i);
@@ -249,7 +253,7 @@ class SlidingContact::Attempt {
       if (!enters(i)) continue;
       const double pressure = increment_.contact_pressure[i % points_.cell.size()];
       const double stay = std::min(factor * (pressure * pressure), 1.0);
-      // Linear in time before and after the middle.
+      // The displacement of a cell is taken as linear in time in each half of the increment.
       increment_.displacement[i] =
           in_middle[i] + (1 - 2 * stay) * (in_middle[i] - before[i]) + stay * distance(i);
     }
@@ -278,7 +282,7 @@ class SlidingContact::Attempt {
   const ContactSet touching_;
   detail::ContactSystem& system_;
   const detail::PointList points_;
-  const std::size_t size_;  // of a vector: components × cells
+  const std::size_t size_;  // length of a vector: components × cells
   const bool stays_put_;
   const Values pressure_before_, traction_before_, shift_before_, shift_after_;
   Values response_;

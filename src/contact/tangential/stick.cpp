@@ -19,8 +19,10 @@ struct UnitMotion {
   StickReport report;
 };
 
-// K_ij/(area of a cell) = e_i·τ_j, e_i being 1 on component `moved` of the points, plus τ_i·(e_j −
-// Kτ_j), which makes the error of unfinished iterates quadratic.
+// Tangential stiffness K_ij, divided by the cell area, of the contact set: the force in direction i
+// for a unit displacement in direction j. e_i is 1 on component i of the points (`moved`) and τ_i
+// are the tractions of the unit displacement; with the compliance C it is e_i·τ_j + τ_i·(e_j −
+// Cτ_j). The second term makes the error of unfinished iterates quadratic.
 double stiffness_of(detail::ContactSystem& system, const detail::PointList& points, int moved,
                     const UnitMotion& i, const UnitMotion& j) {
   const std::vector<double> ones(points.cell.size(), 1.0);
@@ -28,8 +30,9 @@ double stiffness_of(detail::ContactSystem& system, const detail::PointList& poin
          system.dot(points, i.tractions.data(), j.misfit.data(), system.response().components());
 }
 
-// Component `moving` of the displacement is 1 on the contact set, the other 0.
-// guess: tractions of that component on the grid to start from; empty: none.
+// Finds the tractions for which component `moving` of the displacement is 1 on the contact set and
+// the other component is 0. guess: tractions of component `moving` on the grid to start from;
+// empty: none.
 UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& points, int moving,
                        const StickOptions& options, const Field& guess = {}) {
   const int components = system.response().components();
@@ -41,7 +44,7 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
   if (guess.size() > 0)
     for (std::size_t k = 0; k < count; ++k)
       motion.tractions[count * static_cast<std::size_t>(moving) + k] = guess.data()[points.cell[k]];
-  // The residual is a mean over the components; the tolerance is one over the contact set.
+  // The residual is an rms over all components, the tolerance refers to an rms over the points.
   motion.report = system.solve(
       points, displacements,
       {options.tolerance / std::sqrt(components), options.max_iterations, options.on_progress},
@@ -96,7 +99,8 @@ void StickSolver::reserve(const ContactSet& largest) {
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
-                               bool along_x_only, const Field& guess, const Communicator& communicator) {
+                               bool along_x_only, const Field& guess,
+                               const Communicator& communicator) {
   grid.validate();
   detail::require_limits(options.tolerance, options.max_iterations);
   detail::require_tangential(material);

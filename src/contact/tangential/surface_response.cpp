@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacements of the points of a contact set under their tractions, and the CG solve on that set.
+// Displacements of the points of a contact set under their tractions, and the CG solve on the set.
 #include "surface_response.hpp"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
           static_cast<double>(window.ny) * grid.dy()};
 }
 
-/// The window, once the memory of the rows of each process is known to be there.
+/// Returns the window after checking that memory for each process's rows of the window is
+/// available.
 CellWindow affordable(const CellWindow& window, const Grid2D& grid, const RowPartition& rows) {
   const Grid2D part = grid_of(window, grid);
   const double of_all = static_cast<double>(rows.count()) / static_cast<double>(rows.rows());
@@ -57,17 +58,19 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
-                                 Traction traction, const CellWindow& window, const RowPartition& rows)
+                                 Traction traction, const CellWindow& window,
+                                 const RowPartition& rows)
     : window_(affordable(window, grid, rows)),
       traction_(traction),
-      compliance_(
-          tangential_compliance<double>(grid_of(window, grid), material, boundary, rows.communicator())),
-      // About 1 cell for a traction of 1, whatever the units.
+      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary,
+                                                rows.communicator())),
+      // A traction of 1 in scaled units displaces by about 1 cell in any system of units.
       single_unit_(std::sqrt(grid.cell_area()) * material.cerruti_isotropic) {
   Material scaled = material;
   scaled.cerruti_isotropic /= single_unit_;
   scaled.cerruti_directed /= single_unit_;
-  make_single_ = [part = grid_of(window, grid), scaled, boundary, communicator = rows.communicator()] {
+  make_single_ = [part = grid_of(window, grid), scaled, boundary,
+                  communicator = rows.communicator()] {
     return tangential_compliance<float>(part, scaled, boundary, communicator);
   };
 }
@@ -91,7 +94,7 @@ void SurfaceResponse::through(Convolution2D<Real>& compliance, const Units& unit
                               const PointList& loaded, const double* tractions,
                               const PointList& read, double* displacements) {
   const int first = traction_ == Traction::along_y ? 1 : 0;
-  // The points of a row; none where the component has no values.
+  // Returns the points of a row of the window; none if the component has no values.
   const auto points_of = [&](const PointList& points, int component, Index row) {
     const bool any = component >= first && component < first + components();
     return any ? std::pair(points.row_begins[size_of(row)], points.row_begins[size_of(row + 1)])
@@ -221,7 +224,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
   const double root = std::sqrt(unknowns_of_all);
   const auto stop = [&](double square, int iterations) {
     report.residual = std::sqrt(square) / root;
-    // Where the iteration ends by itself, before the next call, round-off has stopped it.
+    // An iteration that ended before it met the tolerance or the limit was stopped by round-off.
     report.termination = report.residual < limits.tolerance    ? Termination::converged
                          : iterations == limits.max_iterations ? Termination::iteration_limit
                                                                : Termination::stalled;

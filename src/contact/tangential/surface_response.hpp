@@ -18,7 +18,7 @@
 
 namespace salebra::detail {
 
-/// body(i) for all i < count, in parallel where there are so many operations that it pays.
+/// Calls body(i) for all i < count, in parallel if the number of operations makes it worthwhile.
 template <class Body>
 void for_each(std::size_t count, std::size_t operations, const Body& body) {
   parallel::for_slabs(
@@ -31,45 +31,47 @@ void for_each(std::size_t count, std::size_t operations, const Body& body) {
 
 double max_of(const double* values, Index count);
 
-/// Σ a_i b_i, with the same bits for every thread count.
+/// Scalar product Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Cells of a set in row order, as positions in the window and in that of the preconditioner, which
-/// has a halo: of the rows of this process.
+/// Cells of a set in row order, for the rows of this process, with the indices of each cell in the
+/// fields of the grid, in the window, and in the preconditioner's field with a halo.
 struct PointList {
   std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
-  std::vector<Index> with_halo;   ///< in StencilPreconditioner's field
-  std::vector<Index> row_begins;  ///< the first point of each row of the window, and their number
+  std::vector<Index> with_halo;   ///< index in StencilPreconditioner's field
+  std::vector<Index> row_begins;  ///< first point of each row of the window; last: number of points
   Index size() const { return static_cast<Index>(cell.size()); }
 };
 
-/// Which displacements of which tractions: shear along one axis with the other component of
-/// traction absent and the other component of displacement not asked for, or both components.
+/// Tractions and displacements of a response: shear along one axis only, where the other traction
+/// is zero and the other displacement is not computed, or both tangential components.
 enum class Traction { along_x, along_y, tangential };
 
-/// Displacements of the surface of a half-space under tractions in cells, on a window: the whole
-/// grid where periodic, any rectangle where free. A component of a vector of points is contiguous.
-/// Over the processes of a share of the window's rows each has the points of its rows, and calls
-/// are collective.
+/// Displacements of the surface of a half-space under tractions on cells of a window: the whole
+/// grid if periodic, any rectangle if free. Each component of a vector of points is contiguous in
+/// memory. With several processes, each has the points of its rows of the window, and calls are
+/// collective.
 class SurfaceResponse {
  public:
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
                   Traction traction, const CellWindow& window, const RowPartition& rows);
 
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
-  /// displacements (components × read.size()) of tractions (components × loaded.size()).
+  /// Computes the displacements (components × read.size()) under the tractions (components ×
+  /// loaded.size()).
   void apply(const PointList& loaded, const double* tractions, const PointList& read,
              double* displacements);
-  /// The same in single precision, in half the time, with an error of loose_error of the largest
-  /// displacement: for directions of a search and for small changes, not for whole residuals. Made
-  /// at the first call.
+  /// apply() in single precision, in half the time, with an error of loose_error times the largest
+  /// displacement: for search directions and small changes, not for whole residuals. The
+  /// single-precision kernel is made at the first call.
   static constexpr double loose_error = 1e-6;
   void apply_loosely(const PointList& points, const double* tractions, double* displacements);
   int fft_count() const { return fft_count_; }
 
  private:
-  /// Factors of tractions before a convolution, and of displacements after it.
+  /// Factors of the scaled units: `in` multiplies tractions before a convolution, `out`
+  /// displacements after it.
   struct Units {
     double in = 1, out = 1;
   };
@@ -86,8 +88,8 @@ class SurfaceResponse {
   int fft_count_ = 0;
 };
 
-/// Approximate inverse of each component of a response: InverseStencil on the points of a contact
-/// set alone, which costs nothing where there is no contact.
+/// Approximate inverse of each component of a response: InverseStencil, applied only to the points
+/// of a contact set, so that cells out of contact cost nothing.
 class StencilPreconditioner {
  public:
   StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window,
@@ -96,22 +98,23 @@ class StencilPreconditioner {
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0) * field_.stride() + iy - window_.y0;
   }
-  double diagonal() const { return stencil_.weight(0, 0); }  ///< 1/m, of E* = 1
-  /// Takes the points on which it is applied from now on.
+  double diagonal() const { return stencil_.weight(0, 0); }  ///< 1/m, for E* = 1
+  /// Sets the points to which apply() applies the inverse from now on.
   void hold(const PointList& points);
-  /// One component.
+  /// Applies the inverse to one component of a vector on the points of hold().
   void apply(const double* in, double* out);
 
  private:
   CellWindow window_;
   Boundary boundary_;
   InverseStencil stencil_;
-  std::vector<Index> held_;  // where field_ may differ from zero
+  std::vector<Index> held_;  // indices at which field_ may be nonzero
   HaloField<double> field_;
   RowExchange halo_rows_;
 };
 
-/// A response with its preconditioner and the points of a contact set: solves K τ = u on the set.
+/// A response with the tangential compliance K, its preconditioner and its window: finds the
+/// tractions τ with K τ = u for displacements u on a contact set.
 class ContactSystem {
  public:
   ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
@@ -124,17 +127,19 @@ class ContactSystem {
   const RowPartition& rows() const { return rows_; }
   SurfaceResponse& response() { return response_; }
   StencilPreconditioner& preconditioner() { return preconditioner_; }
-  /// cells: the whole grid, or of a window that is the whole grid the rows of this process.
+  /// cells: a set of the whole grid or, if the window is the whole grid, of this process's rows.
   PointList points(const ContactSet& cells) const;
-  /// Σ a_i b_i of so many components over the points of all processes, with the same bits for every
-  /// number of threads and processes.
+  /// Scalar product Σ a_i b_i over `components` components of the points of all processes, with the
+  /// same bits for every number of threads and processes.
   double dot(const PointList& points, const double* a, const double* b, int components) const;
 
-  /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
-  /// Preconditioned by SetInverse for each component: Cerruti's response has Σ(1−ν_i)/(G_i q) and
-  /// Σ1/(G_i q) as eigenvalues, so that the condition number is their ratio, 1/(1 − ν), but for
-  /// what the error of SetInverse adds. Where there is no multilevel kernel, by the stencil. On return
-  /// residual is in m, and `misfit` (components × points) holds u − Kτ.
+  /// Conjugate gradients on K τ = u for the displacements u, from the guess in `tractions`; stops
+  /// at rms(u − Kτ) < tolerance, in m. SetInverse preconditions each component: at wave number q
+  /// Cerruti's response has the eigenvalues Σ(1−ν_i)/(G_i q) and Σ1/(G_i q), summed over the two
+  /// bodies i with shear modulus G_i, so the condition number is their ratio, 1/(1 − ν) for equal
+  /// bodies, increased by the error of SetInverse. Without a multilevel kernel, the stencil
+  /// preconditions. On return the residual is in m, and `misfit` (components × points) holds u −
+  /// Kτ.
   struct Limits {
     double tolerance;
     int max_iterations;
@@ -154,7 +159,7 @@ class ContactSystem {
   Boundary boundary_;
   SurfaceResponse response_;
   StencilPreconditioner preconditioner_;
-  std::optional<SetInverse> inverse_;  // made by solve(), which contacts with slip do not call
+  std::optional<SetInverse> inverse_;  // made by solve(); contacts with slip do not use it
 };
 
 }  // namespace salebra::detail

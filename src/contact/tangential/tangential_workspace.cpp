@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// State that the solvers with and without slip share: kernels kept between calls, fields to points.
+// State shared by the tangential solvers with and without slip: kernels kept between calls, and
+// conversions between fields and vectors of points.
 #include "tangential_workspace.hpp"
 
 #include <cmath>
@@ -18,7 +19,7 @@ void require_tangential(const Material& material) {
 
 std::vector<double> values_at(const Field& field, const PointList& points) {
   std::vector<double> values;
-  values.reserve(points.cell.size() * 2);  // room for the other component
+  values.reserve(points.cell.size() * 2);  // space for the other component
   for (const Index cell : points.cell) values.push_back(field.data()[cell]);
   return values;
 }

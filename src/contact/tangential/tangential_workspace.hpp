@@ -15,8 +15,8 @@ void require_tangential(const Material& material);
 
 std::vector<double> values_at(const Field& field, const PointList& points);
 
-/// What the solvers with and without slip share: the kernels, kept between calls, and the way from
-/// fields to vectors of points.
+/// State shared by the tangential solvers with and without slip: the kernels, kept between calls,
+/// and the conversion between fields and vectors of points.
 class TangentialWorkspace {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -27,16 +27,17 @@ class TangentialWorkspace {
   const StickOptions& options() const { return options_; }
   std::size_t components() const { return options_.hold_lateral ? 2 : 1; }
 
-  /// Needs no set-up for a set within an earlier one.
+  /// Returns the system for a contact set; a set within the window of an earlier set needs no
+  /// set-up.
   ContactSystem& system_for(const ContactSet& contact);
-  /// The cells of the window that the last set-up was for; empty where there was none.
+  /// The cells of the window of the last system_for(); empty if there was none.
   ContactSet prepared() const;
   std::vector<double> gather(const TangentialField& field, const PointList& points) const;
-  /// The field that has these values in the cells, and 0 in all others.
+  /// Returns a field with the values (components × cells) in the given cells and 0 in all others.
   TangentialField scatter(const std::vector<double>& values, const std::vector<Index>& cells) const;
   /// Throws InvalidInput unless both components have the grid's shape.
   void require_field(const TangentialField& field, const char* name) const;
-  /// Displacements in `where` under tractions on `loaded`.
+  /// Returns the displacements of the cells in `where` under tractions on the cells in `loaded`.
   TangentialField displacement(const ContactSet& loaded, const TangentialField& traction,
                                const ContactSet& where);
 

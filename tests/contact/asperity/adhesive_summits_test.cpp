@@ -21,7 +21,7 @@ SummitEnsemble summits(double sigma,
           .distribution = distribution};
 }
 
-/// By how far a summit of JKR is drawn before it comes off at a given position.
+/// Distance by which a JKR summit is stretched before it comes off at a given position.
 const double reach = 0.75 * std::cbrt(std::pow(pi * work / 2.0, 2) * radius);
 
 /// JKR's force at an indentation, by bisection of δ(a) on the stable branch.
@@ -38,7 +38,7 @@ double jkr_force(double indentation) {
 }  // namespace
 
 TEST_CASE("Adhesive summits of one height come off together", "[adhesive-summits]") {
-  // Fuller and Tabor's limit of a smooth surface, and the one of DMT.
+  // Fuller and Tabor's limit for a smooth surface, and the DMT limit.
   const double all = density * pi * work * radius;
   CHECK(AdhesiveSummits(summits(1e-4 * reach), body, 3, SummitAdhesion::jkr, work, true)
             .pull_off_pressure() == Approx(1.5 * all).epsilon(1e-5));
@@ -52,7 +52,7 @@ TEST_CASE("The force of adhesive summits is the integral of one over their heigh
                separation = GENERATE(-1.0, 0.4, 2.0) * sigma;
   const bool unloading = GENERATE(true, false);
   const AdhesiveSummits model(summits(sigma), body, 3, SummitAdhesion::jkr, work, unloading);
-  // Simpson's rule in t with δ = δ_c + t², as the force leaves its end by a root.
+  // Simpson's rule in t with δ = δ_c + t², because the force starts from its end like a root.
   const double least = unloading ? -reach : 0;
   const double end = std::sqrt(9 * sigma - separation - least);
   constexpr int steps = 2000;
@@ -83,7 +83,8 @@ TEST_CASE("Adhesive summits without work are Greenwood and Williamson's", "[adhe
 
 TEST_CASE("Exponential heights of DMT neither pull nor press at one work of adhesion",
           "[adhesive-summits]") {
-  // ∫[(4/3)E*√R δ^{3/2} − 2πwR] e^{−δ/σ} dδ vanishes for w = E*σ^{3/2}/(2√(πR)) at every separation.
+  // ∫[(4/3)E*√R δ^{3/2} − 2πwR] e^{−δ/σ} dδ vanishes at every separation for w =
+  // E*σ^{3/2}/(2√(πR)).
   const double sigma = 0.2, critical = 2.0 * std::pow(sigma, 1.5) / (2 * std::sqrt(pi * radius));
   const auto force = [&](double factor) {
     return AdhesiveSummits(summits(sigma, SummitDistribution::exponential), body, 3,
@@ -96,8 +97,8 @@ TEST_CASE("Exponential heights of DMT neither pull nor press at one work of adhe
 }
 
 TEST_CASE("The pull-off of Fuller and Tabor falls with roughness", "[adhesive-summits]") {
-  // Over δ_c: to a half by a roughness of about one δ_c, to a few hundredths by three, as their
-  // figure has it.
+  // Relative to δ_c: as in their figure, a roughness of about one δ_c reduces the pull-off to a
+  // half, three reduce it to a few hundredths.
   double before = 1;
   for (const double sigma : {0.25, 0.5, 1.0, 2.0, 3.0}) {
     const AdhesiveSummits model(summits(sigma * reach), body, 1, SummitAdhesion::jkr, work, true);
@@ -105,7 +106,7 @@ TEST_CASE("The pull-off of Fuller and Tabor falls with roughness", "[adhesive-su
     CAPTURE(sigma, relative);
     CHECK(relative < before);
     before = relative;
-    // Summits that come closer pull no more than those that are drawn apart.
+    // Summits that approach pull no more than summits that are drawn apart.
     CHECK(AdhesiveSummits(summits(sigma * reach), body, 1, SummitAdhesion::jkr, work, false)
               .pull_off_pressure() <= model.pull_off_pressure());
   }

@@ -37,7 +37,8 @@ TEST_CASE("Drawn summits press as their ensemble does, within the scatter that t
   for (std::size_t i = 0; i < 3; ++i) {
     const ForceSample& mean = drawn.mean.samples[i];
     const AsperityContact expected = exact.at(mean.separation);
-    // The 95 % interval is two standard errors; twice that fails in one of 16,000 comparisons.
+    // The 95 % interval is two standard errors; one of 16,000 comparisons exceeds four of them.
+    // comparisons.
     CHECK(mean.force ==
           Approx(expected.force).margin(2 * drawn.interval(drawn.deviation[i].force)));
     CHECK(mean.normal_stiffness ==
@@ -70,8 +71,8 @@ TEST_CASE("Drawn heights have the moments of their density", "[sampling]") {
     }
     return std::pair{mean, square};
   };
-  // Standard errors: 1/200 of the deviation for the mean, √(⟨z⁴⟩ − ⟨z²⟩²)/200 for the square. Four
-  // of them.
+  // Standard errors: 1/200 of the deviation for the mean, √(⟨z⁴⟩ − ⟨z²⟩²)/200 for the square. The
+  // test allows four of them.
   const auto gaussian = moments(SummitDistribution::gaussian);
   CHECK(gaussian.first == Approx(0).margin(0.02));
   CHECK(gaussian.second == Approx(1).margin(0.03));
@@ -107,7 +108,8 @@ TEST_CASE("Heights of drawn summits have nothing to do with their places", "[sam
     with_y += (summit.y - 0.5) * (summit.height - height) * std::sqrt(12) / count;
     x_with_y += (summit.x - 0.5) * (summit.y - 0.5) * 12 / count;
   }
-  // Coefficients of correlation (σ = 1) have the standard deviation 1/√4000 = 0.016; four of them.
+  // Correlation coefficients (σ = 1) have the standard deviation 1/√4000 = 0.016; the test allows
+  // four.
   CHECK(std::abs(with_x) < 0.064);
   CHECK(std::abs(with_y) < 0.064);
   CHECK(std::abs(x_with_y) < 0.064);

@@ -42,7 +42,7 @@ TEST_CASE("Two rough sides are an integral of one over the offset of their summi
   const SummitEnsemble first{.summit_density = 5, .radius = 0.7, .summit_rms = 0.2};
   const SummitEnsemble second{.summit_density = 8, .radius = 1.9, .summit_rms = 0.35};
   const GreenwoodTripp contact(first, second, soft, 1);
-  // A pair at the offset r is one summit of the summed height on a plane that is r²/(2(R1+R2))
+  // A pair at the offset r acts as one summit of the summed height on a plane that is r²/(2(R1+R2))
   // farther away.
   const double radii = first.radius + second.radius;
   const StatisticalSummits at_offset(
@@ -77,7 +77,7 @@ TEST_CASE("The two sides may be exchanged, but not be other than Gaussian", "[gr
   const SummitEnsemble second{.summit_density = 8, .radius = 1.9, .summit_rms = 0.35};
   CHECK(GreenwoodTripp(first, second, soft, 1).force(0.2) ==
         Approx(GreenwoodTripp(second, first, soft, 1).force(0.2)).epsilon(1e-14));
-  // The heights of two independent sides add, their variances too.
+  // The heights of two independent sides add, and so do their variances.
   first.mean_height = 0.3;
   first.rms_height = 0.3;
   SummitEnsemble other = second;

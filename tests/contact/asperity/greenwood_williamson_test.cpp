@@ -17,8 +17,8 @@ namespace {
 
 const Material soft = Material::of_contact_modulus(1.0, 0.3);
 
-/// E* = R = η = A0 = σ_s = 1: F = (4/3) F_{3/2}(h), K = 2 F_{1/2}, F'' = F_{−1/2}, A_c = π F_1 in
-/// GW's notation.
+/// With E* = R = η = A0 = σ_s = 1, F = (4/3) F_{3/2}(h), K = 2 F_{1/2}, F'' = F_{−1/2}, A_c = π F_1
+/// in GW's notation.
 StatisticalSummits unit_summits(SummitDistribution distribution) {
   return {
       {.summit_density = 1, .radius = 1, .summit_rms = 1, .distribution = distribution}, soft, 1};
@@ -34,7 +34,7 @@ double normal(std::mt19937_64& random) {
 }
 
 /// Gaussian isotropic surface of unit square and unit variance, with C(q) constant for |q| <=
-/// 2π·modes: α = 2.
+/// 2π·modes, hence α = 2.
 Surface flat_spectrum_surface(Index points, Index modes, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   RealFft2D<double> fft(points, points);
@@ -58,8 +58,8 @@ Surface flat_spectrum_surface(Index points, Index modes, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamson", "[gw]") {
-  // Γ(n+1)/√(2π) exp(−h²/4) D_{−n−1}(h), parabolic cylinder functions to 30 digits (mpmath); h,
-  // then n = −1/2, 1/2, 1, 3/2.
+  // Γ(n+1)/√(2π) exp(−h²/4) D_{−n−1}(h), parabolic cylinder functions to 30 digits (mpmath).
+  // Columns: h, then n = −1/2, 1/2, 1, 3/2.
   const double table[][5] = {
       {-6, 0.4127955286824271, 2.44074445142828, 6.000000000156357, 14.8508644729109},
       {-2, 0.7960233788176752, 1.356640598139381, 2.00849070261683, 3.111292885687599},
@@ -89,8 +89,8 @@ TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamso
 }
 
 TEST_CASE("The curvature of Gaussian heights is a Bessel function", "[gw]") {
-  // F_{−1/2}(h) = ½√(h/π) exp(−h²/4) K_{1/4}(h²/4): a route without any integral, at h off the
-  // table.
+  // F_{−1/2}(h) = ½√(h/π) exp(−h²/4) K_{1/4}(h²/4): a route without any integral, at values of h
+  // that are not in the table.
   const StatisticalSummits summits = unit_summits(SummitDistribution::gaussian);
   const double h = GENERATE(0.013, 0.7, 1.9, 5.3);
   const double exact =
@@ -102,8 +102,8 @@ TEST_CASE("K = −dF/ds and F'' = −dK/ds for both height densities, deep and f
   const auto distribution = GENERATE(SummitDistribution::gaussian, SummitDistribution::exponential);
   const StatisticalSummits summits = unit_summits(distribution);
   const double separation = GENERATE(-30.0, -3.0, -0.4, 0.3, 3.0);
-  // Fourth-order central difference: error step⁴ = 1e-8 times a fifth derivative of the order of F,
-  // round-off 1e-12/step.
+  // Fourth-order central difference: its error is step⁴ = 1e-8 times a fifth derivative of the
+  // order of F, its round-off 1e-12/step.
   const double step = 1e-2;
   auto slope = [&](auto&& f) {
     return (8 * (f(separation + step) - f(separation - step)) -
@@ -140,7 +140,7 @@ TEST_CASE("Exponential heights carry an exactly exponential force with l = σ_s"
 }
 
 TEST_CASE("Below the lowest exponential summit the force grows as all of them deepen", "[gw]") {
-  // e^x Γ(n+1, x) with x = −s/σ (mpmath); s, then n = −1/2, 1/2, 3/2.
+  // e^x Γ(n+1, x) with x = −s/σ (mpmath). Columns: s, then n = −1/2, 1/2, 3/2.
   const double table[][4] = {{-0.5, 0.9272709014592499, 1.170742231916172, 2.109666738467532},
                              {-3, 0.5092991042595773, 1.986700359698666, 8.176202962254631},
                              {-20, 0.2183910225940261, 4.581331466296592, 96.31471629943648}};
@@ -177,9 +177,9 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
     square += statistics.rms_height * statistics.rms_height / surfaces;
     curvature += 1 / statistics.mean_radius / surfaces;
   }
-  // 350 summits on each of four surfaces: σ_s is known to 1/√(2·1400) = 2 %, the mean height to
-  // σ_s/√1400 = 2 % of σ_s, the density better than the Poisson value of 3 %. Three standard
-  // errors, and 1 % for 16 cells a wave.
+  // With 350 summits on each of four surfaces σ_s is known to 1/√(2·1400) = 2 %, the mean height to
+  // σ_s/√1400 = 2 % of σ_s, and the density better than the Poisson value of 3 %. The test allows
+  // three standard errors, and 1 % for 16 cells per wave.
   CHECK(density == Approx(theory.summit_density).epsilon(0.08));
   CHECK(height == Approx(theory.mean_height).margin(0.07 * theory.summit_rms));
   CHECK(std::sqrt(square) == Approx(theory.summit_rms).epsilon(0.07));
@@ -209,9 +209,9 @@ TEST_CASE("Given summits drawn from a density agree with the integral over it", 
   const StatisticalSummits drawn(
       {.summit_density = count, .radius = radius, .summit_rms = 1, .mean_height = 3}, soft, 1);
   const AsperityContact sum = given.at(separation), expected = drawn.at(separation);
-  // A sum of `count` equal variables f(z): its variance is count·⟨f²⟩ at most. ⟨f²⟩ of force and
-  // stiffness are the polynomial moments ∫(z−s)³φ and ∫(z−s)φ. Four standard errors; the mean of
-  // the drawn heights moves s by 1/√count more.
+  // A sum of `count` equal variables f(z) has at most the variance count·⟨f²⟩. ⟨f²⟩ of force and
+  // stiffness are the polynomial moments ∫(z−s)³φ and ∫(z−s)φ. The test allows four standard
+  // errors; the mean of the drawn heights moves s by 1/√count in addition.
   const double s = separation, tail = std::erfc(s / std::sqrt(2.0)) / 2,
                density = std::exp(-s * s / 2) / std::sqrt(2 * pi);
   const double first = density - s * tail,
@@ -252,13 +252,13 @@ TEST_CASE("Curves at given pressures have those pressures, in ascending order", 
   const SummitEnsemble ensemble = summit_ensemble(1e-14, 1e-2, 1e12);
   const Material material = Material::of_contact_modulus(1e9, 0.25);
   const StatisticalSummits summits(ensemble, material, 4e-8);
-  // The planes go from the far tail of the heights to below all summits.
+  // The planes range from the far tail of the heights to below all summits.
   const ForceCurve curve = curve_at_pressures(summits, {1e9, 1e6, 1e-60});
   REQUIRE(curve.samples.size() == 3);
   CHECK(curve.rms_height == Approx(1e-7));
   double pressure = 1e-60;
   for (const ForceSample& sample : curve.samples) {
-    // s is found to round-off; ln F is at most 37·37 steep in s/s.
+    // s is found to round-off; the slope of ln F over ln s is at most 37·37.
     CHECK(sample.pressure == Approx(pressure).epsilon(1e-12));
     CHECK(sample.force == Approx(sample.pressure * 4e-8).epsilon(1e-15));
     CHECK(sample.mean_gap == Approx(sample.separation + ensemble.mean_height).epsilon(1e-15));
@@ -279,14 +279,14 @@ TEST_CASE("A table of a GW curve is the GW law", "[gw]") {
   std::vector<double> separations;
   for (int i = 0; i <= 40; ++i) separations.push_back(0.1 * i);
   const TabulatedLaw table(curve_at_separations(exact.model(), separations), exact.modulus_ratio());
-  // Cubic in ln F with exact slopes: error h⁴/384 times the fourth derivative of ln F, which is
-  // below 1/2.
+  // The interpolant is cubic in ln F with exact slopes: its error is h⁴/384 times the fourth
+  // derivative of ln F, which is below 1/2.
   for (double indentation : {-3.456, -2.1, -0.77})
     CHECK(table.force(indentation) == Approx(exact.force(indentation)).epsilon(2e-7));
 }
 
 TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
-  // A triangle from −1 over 0 to 2 (m), given three times too high: φ(0) = 2/3.
+  // A triangle from −1 over 0 to 2 (m), given three times too high: φ(0) = 2/3 after normalisation.
   SummitEnsemble ensemble{.summit_density = 1,
                           .radius = 1,
                           .distribution = SummitDistribution::tabulated,
@@ -305,8 +305,8 @@ TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
   CHECK(triangle.force(2) == 0);
   CHECK(triangle.force(triangle.separation_of(1e-3)) == Approx(1e-3).epsilon(1e-12));
 
-  // A Gaussian sampled every σ/50 is interpolated with a mean error of φ''/50²/12, which makes
-  // F''/50²/12 of F: 2.4e-4 F at s = 2.
+  // A Gaussian sampled every σ/50 is interpolated with a mean error of φ''/50²/12, which is
+  // F''/50²/12 for F: 2.4e-4 F at s = 2.
   ensemble.table.clear();
   for (int i = -400; i <= 400; ++i) ensemble.table.push_back({0.02 * i, std::exp(-0.0002 * i * i)});
   const StatisticalSummits table(ensemble, soft, 1);
@@ -323,8 +323,8 @@ TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
 }
 
 TEST_CASE("An elliptical summit is Hertz's ellipse", "[gw]") {
-  // For axes b/a = 0.9, 0.5, 0.1: κ2/κ1, then κ1 times the radii of a sphere with the same force
-  // and with the same area, from the potential integrals of the ellipsoidal pressure by quadrature
+  // For axes b/a = 0.9, 0.5, 0.1: κ2/κ1, then κ1 times the radii of spheres with the same force and
+  // with the same area, from the potential integrals of the ellipsoidal pressure by quadrature
   // (mpmath).
   const double table[][3] = {{1, 1, 1},
                              {0.85379937586943844, 1.083363009906183, 1.081861206408608},
@@ -343,7 +343,7 @@ TEST_CASE("An elliptical summit is Hertz's ellipse", "[gw]") {
     CHECK(contact.force_curvature == Approx(same.force_curvature).epsilon(1e-13));
     CHECK(contact.contact_area == Approx(pi * row[2] / curvature * 1e-9).epsilon(1e-13));
   }
-  // A ridge has the force of one a thousand times as long as wide.
+  // A ridge has the force of a summit that is a thousand times as long as wide.
   auto force = [](double ratio) {
     return DeterministicSummits({{.curvature1 = 1, .curvature2 = ratio}}, soft, 1, 0, 1,
                                 SummitShape::elliptical)

@@ -18,9 +18,9 @@ namespace {
 const double modulus = 2.5;
 const Material soft = Material::of_contact_modulus(modulus, 0.3);
 
-/// (1/A) Σ_{q≠0} (2/q) exp(iq·r), by Ewald's method in its plainest form: both sums over a square
-/// of lattice points, with the split where they converge alike. At r = 0 the image at r = 0 is
-/// replaced by the limit of −erf(αr)/r.
+/// (1/A) Σ_{q≠0} (2/q) exp(iq·r) by Ewald's method in its plainest form: both sums run over a
+/// square of lattice points, with the split at which they converge alike. At r = 0 the limit of
+/// −erf(αr)/r replaces the term of r = 0 itself.
 double periodic_kernel(double x, double y, double lx, double ly) {
   const double split = std::sqrt(pi / (lx * ly));
   double sum = -2 * std::sqrt(pi) / (split * lx * ly);
@@ -56,7 +56,8 @@ TEST_CASE("One summit alone is lifted by its periodic images only", "[interactin
   const double separation = -0.01;
   const AsperityContact contact = single.at(separation);
   REQUIRE(contact.converged);
-  // δ = −s + 3.9002649 P/(πE*L), whatever carries P. The grid part of the sums is good to 1e-9.
+  // δ = −s + 3.9002649 P/(πE*L), whichever summit carries P. The grid part of the sums is accurate
+  // to 1e-9.
   const double depth = 0.01 + 3.900264920001956 * contact.force / (pi * modulus * size);
   CHECK(contact.force ==
         Approx(4.0 / 3 * modulus * std::sqrt(radius) * std::pow(depth, 1.5)).epsilon(1e-8));
@@ -79,8 +80,8 @@ TEST_CASE("Every summit is in equilibrium with all the others", "[interacting]")
       depth -= state.loads[j] / modulus *
                periodic_kernel(summits[i].x - summits[j].x, summits[i].y - summits[j].y, lx, ly);
     const double load = 4.0 / 3 * modulus * std::sqrt(0.02) * std::pow(std::max(depth, 0.0), 1.5);
-    // Solver 1e-10 and grid 1e-9 of the greatest displacement, which is of the order of the
-    // greatest depth.
+    // The error is 1e-10 of the solver and 1e-9 of the grid, relative to the maximum displacement,
+    // which is of the order of the maximum depth.
     CHECK(state.loads[i] == Approx(load).margin(1e-7));
     in_contact += state.loads[i] > 0;
   }
@@ -96,8 +97,8 @@ TEST_CASE("K and F'' are derivatives of the interacting force", "[interacting]")
   const AsperityContact contact = model.at(separation);
   REQUIRE(contact.converged);
   const AsperityContact closer = model.at(separation - step), farther = model.at(separation + step);
-  // No summit touches or leaves between the three: the differences are smooth, with errors of
-  // step².
+  // No summit touches or leaves between the three states, so the differences are smooth, with
+  // errors of order step².
   REQUIRE(closer.contacts == farther.contacts);
   CHECK(contact.normal_stiffness ==
         Approx((closer.force - farther.force) / (2 * step)).epsilon(1e-6));
@@ -106,8 +107,8 @@ TEST_CASE("K and F'' are derivatives of the interacting force", "[interacting]")
 }
 
 TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
-  // The interaction is of the order of Σ P/(πE*L): with L a thousand times the contact radius it is
-  // 1e-3 of δ at most.
+  // The interaction is of the order of Σ P/(πE*L): if L is a thousand times the contact radius, it
+  // is at most 1e-3 of δ.
   const std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
   const InteractingSummits interacting(summits, soft, square(1e2));
   const DeterministicSummits independent(summits, soft, 1e4);
@@ -116,8 +117,8 @@ TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
 }
 
 TEST_CASE("Sparse elliptical summits have the area of Hertz's ellipses", "[interacting]") {
-  // As above, what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in
-  // the ratio of these curvatures is a tenth less than that of the force's circle.
+  // As above, the displacement by the neighbours is at most 1e-3 of δ. An ellipse whose curvatures
+  // have this ratio has a tenth less area than the circle of the same force.
   std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
   for (Summit& summit : summits) summit.curvature2 /= 8;
   const InteractingSummits interacting(summits, soft, square(1e2), 0, 1, SummitShape::elliptical);
@@ -127,7 +128,7 @@ TEST_CASE("Sparse elliptical summits have the area of Hertz's ellipses", "[inter
 
 TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary elements",
           "[interacting]") {
-  // What is left: summits that are no paraboloids, and contacts that merge.
+  // The remaining difference: summits are not paraboloids, and contacts merge.
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 1.0 / 4, .short_cutoff = 16.0 / 128, .rms_slope = 0.1});
   const double force = 0.03 * 0.1 * modulus;
@@ -156,8 +157,8 @@ TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary 
 }
 
 TEST_CASE("The sums for thousands of summits agree with the plain ones", "[interacting]") {
-  // More points than fit one cell of neighbours: the cell lists and the grid both work, on a
-  // rectangle.
+  // More points than one cell of neighbours holds, on a rectangle: this tests both the cell lists
+  // and the grid.
   std::vector<Summit> summits = random_summits(2500, 1e-3, 9);
   for (Summit& summit : summits) summit.y /= 3;
   const InteractingSummits model(summits, soft, {4, 4, 9, 3});
@@ -167,7 +168,7 @@ TEST_CASE("The sums for thousands of summits agree with the plain ones", "[inter
   double mean = 0;
   for (const Summit& summit : summits) mean += summit.height / 2500;
   const double deepest = std::ranges::max(state.indentation);
-  // Every third of those in contact, and some of the others.
+  // Every third summit in contact, and some of the others.
   int contacts = 0;
   for (std::size_t i = 0; i < summits.size(); ++i) {
     if (state.loads[i] > 0 ? ++contacts % 3 != 0 : i % 101 != 0) continue;
@@ -180,8 +181,8 @@ TEST_CASE("The sums for thousands of summits agree with the plain ones", "[inter
       CHECK(depth < 1e-8 * deepest);
       continue;
     }
-    // The solver's 1e-10 and the 1e-9 that the sums promise, of displacements that are below the
-    // greatest depth.
+    // The error is 1e-10 of the solver and the 1e-9 that the sums promise, relative to
+    // displacements below the maximum depth.
     CHECK(state.indentation[i] == Approx(depth).margin(3e-9 * deepest).epsilon(0));
     CHECK(state.loads[i] ==
           Approx(4.0 / 3 * modulus * std::sqrt(1e-3) * std::pow(state.indentation[i], 1.5)));
@@ -196,13 +197,13 @@ TEST_CASE("Given the force or given the separation, the state is the same", "[in
   const AsperityContact contact = model.contact_of(by_separation);
   const InteractingSummits::State by_force = model.solve_for_force(contact.force);
   REQUIRE(by_force.converged);
-  // Both solvers stop at 1e-10 of the greatest indentation, which is of the order of one.
+  // Both solvers stop at 1e-10 of the maximum indentation, which is of the order of one.
   CHECK(by_force.separation == Approx(separation).margin(1e-9));
   CHECK(model.contact_of(by_force).force == Approx(contact.force).epsilon(1e-12));
   CHECK(model.contact_of(by_force).normal_stiffness ==
         Approx(contact.normal_stiffness).epsilon(1e-7));
   CHECK(model.separation_of(contact.force) == by_force.separation);
-  // From another state it is the same one.
+  // The solve from another state gives the same result.
   const InteractingSummits::State from_other = model.solve_for_force(contact.force, &by_separation);
   CHECK(from_other.separation == Approx(separation).margin(1e-9));
   const InteractingSummits::State closer = model.solve_for_force(2 * contact.force, &by_force);
@@ -242,7 +243,7 @@ TEST_CASE("A summit within a larger contact is pressed out of it", "[interacting
       {.x = 1, .y = 1, .height = 0.1, .curvature1 = 0.1, .curvature2 = 0.1},
       {.x = 1.05, .y = 1, .height = 0.099, .curvature1 = 0.1, .curvature2 = 0.1}};
   const InteractingSummits model(summits, soft, square(10));
-  // The contact radius of the higher one is √(10·0.1) = 1, twenty times the distance.
+  // The contact radius of the higher summit is √(10·0.1) = 1, twenty times the distance.
   const InteractingSummits::State state = model.solve(0);
   CHECK(state.converged);
   CHECK(std::min(state.loads[0], state.loads[1]) == 0);
@@ -261,7 +262,7 @@ TEST_CASE("Interacting summits say what they cannot have", "[interacting]") {
                                  SummitShape::circular, {.max_iterations = 1});
   CHECK_FALSE(hasty.at(0).converged);
   CHECK_FALSE(curve_at_separations(hasty, {0}).samples[0].converged);
-  // A load then has no gap either, and no separation.
+  // A load without a solution has no gap and no separation.
   const ForceSample lost = curve_at_pressures(hasty, {1}).samples[0];
   CHECK_FALSE(lost.converged);
   CHECK(std::isnan(lost.mean_gap));
@@ -283,12 +284,12 @@ TEST_CASE("Interacting summits can be stopped within a load, and reports change 
     return true;
   });
   REQUIRE(whole.samples.size() == 3);
-  // Several in each load, or a load of many summits would not be left for long.
+  // Each load reports several times, so that a load of many summits can be interrupted soon.
   REQUIRE(reports - of_first > 10);
   const ForceCurve silent = curve_at_pressures(model, pressures);
   for (std::size_t k = 0; k < 3; ++k)
     CHECK(whole.samples[k].mean_gap == silent.samples[k].mean_gap);
-  // What was finished comes back, wherever in the second load the stop came.
+  // Finished loads are returned, wherever in the second load the interruption comes.
   for (const int last : {of_first, of_first + 3}) {
     int told = 0;
     const ForceCurve stopped =
@@ -299,7 +300,7 @@ TEST_CASE("Interacting summits can be stopped within a load, and reports change 
   const auto stop = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(model.solve(0.5, stop), Interrupted);
   CHECK_THROWS_AS(model.contact_of(model.solve(0.5), stop), Interrupted);
-  // What has no progress of its own asks that of the model.
+  // A function without its own progress argument uses that of the model.
   const InteractingSummits stoppable(summits, soft, square(6), 0, ForceSample::unknown,
                                      SummitShape::circular, {.on_progress = stop});
   CHECK_THROWS_AS(stoppable.at(0.5), Interrupted);

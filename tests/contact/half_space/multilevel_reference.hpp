@@ -7,8 +7,8 @@
 
 #include "contact/half_space/multilevel_passes.hpp"
 
-// The multilevel kernel's kernels in their plainest form, cell by cell. The tests compare the fast kernels
-// with these, and a reader begins here.
+// The passes of the multilevel kernel in their plainest form, cell by cell. The tests compare the
+// fast passes with these; a reader should begin here.
 namespace salebra::detail::reference {
 
 // The cubic B-spline at a distance of k cells of the finer grid.
@@ -39,7 +39,7 @@ inline void restriction(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t 
   });
 }
 
-// (T source + P coarse) at a cell.
+// T source + P coarse at one cell.
 inline float ascended(const Ascent& sum, int radius, std::ptrdiff_t i, std::ptrdiff_t j) {
   const auto& [source, stencil, coarse, shift] = sum;
   float near = 0, far = 0;

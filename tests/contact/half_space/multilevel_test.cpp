@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The multilevel kernel: its stencils against the exact symbol, its kernels against plain loops,
-// the operator against transforms.
+// The multilevel kernel: its stencils against the exact symbol, its passes against plain loops, the
+// operator against transforms.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -31,9 +31,9 @@ double transform_of(const MultilevelStencil& stencil, double x, double y) {
 
 double spline(double x, double y) { return std::pow(std::cos(x / 2) * std::cos(y / 2), 4); }
 
-// G~ of the whole multilevel on the frequencies that look the same on its coarsest grid, as a dense
-// matrix with G taken out on both sides: G^−½ G~ G^−½ − 1, from the definition of G~ and not from
-// that of its stencils' fit. Frequencies are θ + 2π(a, b)/2^depth.
+// G~ of all levels on the frequencies that coincide on its coarsest grid, as a dense matrix with G
+// factored out on both sides: G^−½ G~ G^−½ − 1. It follows from the definition of G~, not from the
+// fit of its stencils. Frequencies are θ + 2π(a, b)/2^depth.
 Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int depth, double dx,
                                double theta_x, double theta_y) {
   const int copies = 1 << depth;
@@ -41,7 +41,7 @@ Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int de
     const auto folded = [](double t) { return std::remainder(t, 2 * pi); };
     return 2 / std::hypot(folded(x) / dx, folded(y) * dx);
   };
-  // C of the coarsest grid by the formula of the header, from g of the level before, alias by
+  // C of the coarsest grid by the formula of the header, from g of the previous level, alias by
   // alias.
   struct Level {
     double value, metric;
@@ -60,8 +60,8 @@ Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int de
       }
     return {moved / (4 * squares * squares), 4 * squares};
   };
-  // G~ between two aliases: equal up to level k, they meet in T of all levels up to k and in C if
-  // they meet at all.
+  // G~ between two aliases that are equal up to level k: they meet in T of all levels up to k, and
+  // in C if they meet on all levels.
   const Eigen::Index size = copies * copies;
   Eigen::MatrixXd stand_in = Eigen::MatrixXd::Zero(size, size);
   const auto frequency = [&](Eigen::Index k) {
@@ -77,7 +77,7 @@ Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int de
       for (int level = 0; level < depth; ++level) {
         const bool same = std::abs(std::remainder(kx - lx, 2 * pi)) < 1e-9 &&
                           std::abs(std::remainder(ky - ly, 2 * pi)) < 1e-9;
-        // Pᵀ of e^{iθx} is 4v(θ) e^{2iθX}, summed over fine cells; P puts ¼ of it on each alias.
+        // Pᵀ of e^{iθx} is 4v(θ) e^{2iθX}, summed over fine cells; P gives each alias ¼ of it.
         if (same)
           stand_in(k, l) +=
               path * transform_of(levels[static_cast<std::size_t>(level)].stencil, kx, ky);
@@ -115,7 +115,7 @@ double sum_of_errors(const std::vector<MultilevelRung>& levels, int depth) {
   return sum;
 }
 
-// A field on some tiles, zero elsewhere.
+// A field that is nonzero only on some tiles.
 struct TiledField {
   Grid2D grid;
   std::vector<unsigned char> in_use;
@@ -148,7 +148,7 @@ struct TiledField {
     return values;
   }
 
-  // G~ of it on its tiles, zero elsewhere.
+  // G~ of the field on its tiles, zero elsewhere.
   Field image(MultilevelKernel& multilevel) {
     multilevel.list_tiles(in_use);
     multilevel.descend(source);
@@ -177,7 +177,8 @@ Field exact_image(const Field& field, const Grid2D& grid, Boundary boundary) {
 
 std::optional<MultilevelKernel> multilevel_for(const Grid2D& grid, Boundary boundary) {
   return MultilevelKernel::make(grid, RowPartition(grid.nx),
-                                normal_symbol(grid, 1, boundary, RowPartition(grid.nx)), 1, boundary);
+                                normal_symbol(grid, 1, boundary, RowPartition(grid.nx)), 1,
+                                boundary);
 }
 
 Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {
@@ -187,13 +188,14 @@ Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {
 }  // namespace
 
 TEST_CASE("The multilevel kernel's stencils keep within their spectral error at any frequency") {
-  // The design looks at a grid of frequencies and at a bound of the error; the random frequencies
-  // here lie between, where the error is no larger by more than a few per cent of itself.
+  // The design uses a grid of frequencies and a bound of the error. The random frequencies of this
+  // test lie between those of the design, where the error is larger by at most a few per cent of
+  // itself.
   const auto square = multilevel_design(1, Boundary::periodic, 4);
   for (const int depth : {1, 2, 3}) {
     const double error = spectral_error(square, depth, 1, 60);
     CHECK(error < 1.03 * sum_of_errors(square, depth));
-    // A bound many times too large would not tell good stencils from bad ones.
+    // A bound that is many times too large could not tell good stencils from bad ones.
     CHECK(error > 0.3 * sum_of_errors(square, depth));
   }
   const double ratio = 1.5;
@@ -202,9 +204,9 @@ TEST_CASE("The multilevel kernel's stencils keep within their spectral error at 
 }
 
 TEST_CASE("The multilevel kernel's stencils are as good as the best known of their size") {
-  // 7 × 7 and then 5 × 5 with the cubic B-spline, fitted to the largest eigenvalue by another
-  // program: 0.026, 0.008, 0.005, 0.004. Here the Frobenius norm is made small in its place, which
-  // costs up to two fifths.
+  // Stencils of 7 × 7 and then 5 × 5 with the cubic B-spline, fitted to the largest eigenvalue by
+  // another program, have 0.026, 0.008, 0.005, 0.004. The design minimises the Frobenius norm
+  // instead, which costs up to two fifths.
   const auto levels = multilevel_design(1, Boundary::periodic, 4);
   const std::array best = {0.026, 0.008, 0.005, 0.004};
   for (std::size_t k = 0; k < best.size(); ++k) CHECK(levels[k].error < 1.4 * best[k]);
@@ -214,12 +216,12 @@ TEST_CASE("A stencil of the wrong scale has an error that gives it away") {
   auto levels = multilevel_design(1, Boundary::periodic, 4);
   const double right = spectral_error(levels, 2, 1, 30);
   for (double& weight : levels[1].stencil.weights) weight *= 4;
-  // The solver would still converge with it, only more slowly.
+  // With these stencils the solver would still converge, only more slowly.
   CHECK(spectral_error(levels, 2, 1, 30) > 3 * right);
 }
 
 TEST_CASE("The multilevel kernel's kernels of every vector width do what the plain ones do") {
-  // Numbers and weights of few bits: every sum is exact in float, whatever its order.
+  // Numbers and weights have few bits: every sum is exact in float, in any order.
   std::mt19937 random(7);
   const auto few_bits = [&] {
     return static_cast<float>(std::uniform_int_distribution<int>(-16, 16)(random));
@@ -235,8 +237,8 @@ TEST_CASE("The multilevel kernel's kernels of every vector width do what the pla
   };
   std::array<float, 25> small{};
   std::array<float, 49> wide{};
-  // Symmetric about both axes, as the multilevel kernel's are: the widest kernels add opposite neighbours
-  // before they are weighted.
+  // Symmetric about both axes like those of the multilevel kernel: the widest passes add opposite
+  // neighbours before they weight them.
   const auto fill_stencil = [&](auto& stencil, int radius) {
     for (int i = 0; i <= radius; ++i)
       for (int j = 0; j <= radius; ++j) {
@@ -325,7 +327,7 @@ TEST_CASE("The multilevel kernel's kernels of every vector width do what the pla
     CAPTURE(name);
     CHECK(sums(kernels, 1) == exact);
   }
-  // Sums that are rounded do not depend on where threads cut the list.
+  // Rounded sums do not depend on where threads divide the list.
   for (Index i = -halo; i < nx + halo; ++i)
     for (Index j = -halo; j < ny + halo; ++j) field.row(i)[j] /= 3;
   for (const auto& [name, kernels] : tables) {
@@ -339,8 +341,8 @@ TEST_CASE("On any tiles the multilevel kernel is the compliance up to its spectr
     Grid2D grid;
     Boundary boundary;
   };
-  // Squares, rectangles, sizes that no tile divides, odd sizes where the period is not the grid,
-  // isolated patches.
+  // Squares, rectangles, sizes that are no multiple of a tile, odd sizes whose period differs from
+  // the grid, and isolated patches.
   for (const auto& [grid, boundary] :
        {Case{cells(256, 256), Boundary::periodic}, Case{cells(512, 264), Boundary::periodic},
         Case{cells(300, 500), Boundary::periodic},
@@ -355,11 +357,11 @@ TEST_CASE("On any tiles the multilevel kernel is the compliance up to its spectr
       const Field field = x.field(), stand_in = x.image(*multilevel);
       Field exact = exact_image(field, grid, boundary);
       const double quadratic = (field * exact).sum(), found = (field * stand_in).sum();
-      // Random numbers spread over all frequencies: they see some mean of the error, not the
-      // largest.
+      // Random numbers contain all frequencies, so they measure a mean of the error, not the
+      // maximum.
       CHECK(std::abs(found - quadratic) < multilevel->error() * quadratic);
 
-      // Between two fields on the same tiles it is symmetric, up to the rounding of float.
+      // Between two fields on the same tiles G~ is symmetric, up to the rounding of float.
       TiledField y(grid, part, 3);
       for (Index i = 0; i < grid.nx; ++i)
         for (Index j = 0; j < grid.ny; ++j)
@@ -371,9 +373,9 @@ TEST_CASE("On any tiles the multilevel kernel is the compliance up to its spectr
 }
 
 TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
-  // The mirror images of these waves are no aliases of them on the coarse grids, and x·G~x is one
+  // The mirror images of these waves are not aliases of them on the coarse grids, so x·G~x is one
   // number, which follows from the levels without grids or tiles. All stencils, both splines and C
-  // take part. Float rounds to some 1e-7. A centre of T2 that is off by 1 % changes the number by
+  // contribute. Float rounds to about 1e-7. A centre of T2 that is off by 1 % changes the number by
   // up to 1e-3.
   for (const int depth : {2, 3}) {
     const Index n = 128 << depth;
@@ -403,8 +405,8 @@ TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
 }
 
 TEST_CASE("A multilevel with new tiles forgets what was on the old ones") {
-  // This is as in a solve, where a refresh drops tiles: what is left on a coarser level would act
-  // on all cells through the last transform.
+  // As in a solve in which a refresh drops tiles: values that are left over on a coarser level
+  // would act on all cells through the last transform.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
     auto used = multilevel_for(grid, boundary), fresh = multilevel_for(grid, boundary);
@@ -416,8 +418,8 @@ TEST_CASE("A multilevel with new tiles forgets what was on the old ones") {
 }
 
 TEST_CASE("Smooth loads sink in as the half-space does") {
-  // Waves of 8 cells and more: what the stencils and splines do to them is far below the largest
-  // error, which belongs to the shortest.
+  // Waves of 8 cells and more: their error by stencils and splines is far below the maximum error,
+  // which belongs to the shortest waves.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
     auto multilevel = multilevel_for(grid, boundary);
@@ -443,8 +445,8 @@ TEST_CASE("A constant pressure has no displacement where the mean is the referen
   REQUIRE(multilevel);
   TiledField x(grid, 1, 1);
   for (Index i = 0; i < grid.nx; ++i) std::fill_n(x.source.row(i), grid.ny, 1.0f);
-  // The scale is the displacement of one cell under the same pressure, 1.12: rounding of float in
-  // sums of some hundred numbers.
+  // The scale is the displacement of one cell under the same pressure, 1.12; the difference is
+  // rounding of float in sums of some hundred numbers.
   CHECK(x.image(*multilevel).abs().maxCoeff() < 2e-4);
 }
 

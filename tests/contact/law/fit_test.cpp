@@ -21,7 +21,7 @@ ForceCurve curve_of(const std::vector<double>& x, const std::vector<double>& log
 }
 
 // Anscombe, The American Statistician 27 (1973) 17: the first set is linear with noise, the second
-// a parabola without.
+// a parabola without noise.
 const std::vector<double> anscombe_x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
 const std::vector<double> anscombe_linear{8.04, 6.95, 7.58,  8.81, 8.33, 9.96,
                                           7.24, 4.26, 10.84, 4.82, 5.68};
@@ -33,8 +33,8 @@ const std::vector<double> anscombe_parabola{9.14, 8.14, 8.74, 8.77, 9.26, 8.10,
 TEST_CASE("The fit is the published regression of Anscombe's first set", "[fit]") {
   const ExponentialFit fit =
       fit_exponential(curve_of(anscombe_x, anscombe_linear), {}, FitWeights::equal);
-  // Slope 0.500091, intercept 3.000091, standard error 0.117906, R² 0.666542 (to the digits
-  // printed); t(9) = 2.262157.
+  // Slope 0.500091, intercept 3.000091, standard error 0.117906, R² 0.666542 (to the printed
+  // digits); t(9) = 2.262157.
   CHECK(1 / fit.decay_length == Approx(0.500091).epsilon(2e-6));
   CHECK(std::log(fit.reference_pressure) == Approx(3.000091).epsilon(1e-6));
   CHECK(fit.r_squared == Approx(0.666542).epsilon(2e-6));
@@ -67,7 +67,7 @@ TEST_CASE("An exact exponential has its decay length, no interval and no bend", 
   }
   const ForceCurve curve = curve_of(x, log_pressure);
   const ExponentialFit fit = fit_exponential(curve);
-  // exp and log cost about 20 units of round-off in ln p, divided by its range of 20.
+  // exp and log add about 20 units of round-off to ln p, divided by its range of 20.
   CHECK(fit.decay_length == Approx(0.7e-7).epsilon(1e-14));
   CHECK(fit.decay_length_high - fit.decay_length_low < 1e-13 * fit.decay_length);
   CHECK(fit.r_squared == Approx(1).epsilon(1e-14));
@@ -102,7 +102,7 @@ TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
   CHECK(test.refuted(1e-3));
   CHECK(test.quadratic < 0);
   CHECK(test.decay_length_at_min_gap > test.decay_length_at_max_gap);
-  // The secant between neighbours is l = F/K at their midpoint, to the second order of 0.25 σ.
+  // The secant between neighbours gives l = F/K at their midpoint, to the second order of 0.25 σ.
   const LocalDecayLength local = local_decay_length(gaussian);
   const StatisticalSummits summits(ensemble, material, 1e-6);
   REQUIRE(local.mean_gap.size() == 11);
@@ -118,14 +118,15 @@ TEST_CASE("The law is fair where F/l^2 is within a factor of two of F'' at both 
   CHECK(law.law_off_at_min_gap == 0.5625 - 1);
   CHECK(law.law_off_at_max_gap == 1.5625 - 1);
   CHECK(law.fair);
-  // The squares of 1.41 and 1.42 are on either side of 2, those of 0.71 and 0.70 of 1/2.
+  // The squares of 1.41 and 1.42 lie on either side of 2, those of 0.71 and 0.70 on either side of
+  // 1/2.
   CHECK(describe_law(1, 0.71, 1.41).fair);
   CHECK(describe_law(1e-9, 1.41e-9, 0.71e-9).fair);
   for (const double off : {0.70, 1.42}) {
     CHECK_FALSE(describe_law(1, off, 1).fair);
     CHECK_FALSE(describe_law(1, 1, off).fair);
   }
-  // No l is negative: there the parabola of the fit has turned.
+  // A negative l means that the parabola of the fit has turned.
   CHECK(std::isinf(describe_law(1, 1, -1).law_off_at_max_gap));
   CHECK_FALSE(describe_law(1, 1, -1).fair);
 }
@@ -151,16 +152,16 @@ TEST_CASE("The 95 % interval covers the truth in 95 % of noisy curves, whatever 
     covered += fit.decay_length_low <= 0.5 && 0.5 <= fit.decay_length_high;
     refuted += test_exponential(curve, {}, weights).refuted();
   }
-  // Binomial: 950 ± 7 and 50 ± 7; the normal quantile 1.96 in place of Student's 2.45 would cover
-  // 902. Student's distribution is exact for equal weights; for the others it is as good as their
-  // unequal weights leave it, a per cent here.
+  // Binomial: 950 ± 7 and 50 ± 7; the normal quantile 1.96 instead of Student's 2.45 would cover
+  // 902. Student's distribution is exact for equal weights; unequal weights change it by a per cent
+  // here.
   CHECK(covered == Approx(950).margin(24));
   CHECK(refuted == Approx(50).margin(24));
 }
 
 TEST_CASE("Spacing weights make l a property of the curve, not of where it was sampled", "[fit]") {
   // ln p = −ū − ū²/10 on 0 … 2: the line closest to ū² in the mean square has the slope 0 + 2, so
-  // that 1/l = 1.2.
+  // 1/l = 1.2.
   auto curve_at = [](int samples, double grading) {
     std::vector<double> x, log_pressure;
     for (int i = 0; i < samples; ++i) {
@@ -174,15 +175,15 @@ TEST_CASE("Spacing weights make l a property of the curve, not of where it was s
     return std::abs(1 / fit_exponential(curve_at(samples, grading), {}, weights).decay_length -
                     1.2);
   };
-  // Evenly spread samples of a parabola are exact by symmetry; others have the second order of the
+  // Evenly spaced samples of a parabola are exact by symmetry; others have the second order of the
   // trapezoidal rule.
   CHECK(error(51, 1, FitWeights::spacing) < 1e-12);
   CHECK(error(401, 2, FitWeights::spacing) < 1e-5);
   CHECK(error(51, 2, FitWeights::spacing) / error(101, 2, FitWeights::spacing) ==
         Approx(4).epsilon(0.1));
-  // Equal weights follow the crowd near ū = 0, where l is larger.
+  // Equal weights favour the many samples near ū = 0, where l is larger.
   CHECK(error(401, 2, FitWeights::equal) > 0.02);
-  // A bend is a bend with any weights.
+  // All weights find the bend.
   for (const FitWeights weights : {FitWeights::spacing, FitWeights::equal, FitWeights::force})
     CHECK(test_exponential(curve_at(21, 2), {}, weights).quadratic == Approx(-0.1).epsilon(1e-9));
 }
@@ -194,7 +195,8 @@ TEST_CASE("The interval of a weighted fit follows from how it answers each value
   std::vector<double> x;
   for (const double gap : gaps) x.push_back(-gap);
   const ExponentialFit fit = fit_exponential(curve_of(x, log_pressure));
-  // The fit is linear in ln p: differences are derivatives, of the slope −1/l and of each residual.
+  // The fit is linear in ln p, so differences are the derivatives of the slope −1/l and of each
+  // residual.
   double squares = 0, trace = 0, variance = 0;
   for (std::size_t j = 0; j < n; ++j) {
     std::vector<double> changed = log_pressure;
@@ -213,14 +215,13 @@ TEST_CASE("The interval of a weighted fit follows from how it answers each value
       squares += weight * residual * residual;
     }
   }
-  // t(5) = 2.570582; s² from Σw r², whose expectation is s² times the trace.
+  // t(5) = 2.570582; s² comes from Σw r², whose expectation is s² times the trace.
   CHECK(1 / fit.decay_length_low - 1 / fit.decay_length ==
         Approx(2.570582 * std::sqrt(variance * squares / trace)).epsilon(1e-6));
 }
 
 TEST_CASE("Force weights are those of errors of one size in p", "[fit]") {
-  // The normal equations with weights p², solved for the slope without the fit's own way of going
-  // about it.
+  // The normal equations with weights p², solved for the slope by another method than the fit's.
   const std::vector<double> gaps{0, 0.7, 1.1, 2.5, 3}, log_pressure{0.1, -0.6, -1.3, -2.2, -3.2};
   std::vector<double> x;
   double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
@@ -281,8 +282,7 @@ TEST_CASE("The window decides which samples count", "[fit]") {
 }
 
 TEST_CASE("The sensitivity is the range of fits over parts of the window", "[fit]") {
-  // Two straight pieces of slopes 1 and 2: the runs of at least three out of five samples reach
-  // each of them.
+  // Two straight pieces of slopes 1 and 2: runs of at least three of five samples lie within each.
   const ForceCurve curve = curve_of({1, 2, 3, 4, 5}, {1, 2, 3, 5, 7});
   const WindowSensitivity sensitivity = window_sensitivity(curve);
   CHECK(sensitivity.windows == 6);
@@ -298,7 +298,7 @@ TEST_CASE("The sensitivity weighs as the fit does", "[fit]") {
   const std::vector<double> x{1, 2, 4, 5, 8}, y{1, 2, 3, 5, 7};
   for (const FitWeights weights : {FitWeights::equal, FitWeights::spacing, FitWeights::force}) {
     double least = 1e9, greatest = 0;
-    // Runs of three samples out of five at the least.
+    // Runs of at least three of five samples.
     for (std::size_t begin = 0; begin < 3; ++begin)
       for (std::size_t end = begin + 3; end <= 5; ++end) {
         const auto part = [&](const std::vector<double>& all) {
@@ -317,7 +317,7 @@ TEST_CASE("The sensitivity weighs as the fit does", "[fit]") {
 
 TEST_CASE("With four samples the bend has one degree of freedom, and Cauchy's probability",
           "[fit]") {
-  // Four even places: c = Σvy/Σv² with v = (1, −1, −1, 1), and the residual is along (−1, 3, −3,
+  // Four even positions: c = Σvy/Σv² with v = (1, −1, −1, 1), and the residual is along (−1, 3, −3,
   // 1)/√20.
   const std::vector<double> y{1, 2.2, 2.9, 4.4};
   const double bend = (y[0] - y[1] - y[2] + y[3]) / 4;

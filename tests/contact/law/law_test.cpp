@@ -11,8 +11,8 @@ using namespace salebra;
 
 namespace {
 
-/// ln F = 1.5 δ − 0.05 δ² + 0.1 sin δ: F, F', F'' > 0 on [0, 4], and it bends, as the curve of a
-/// rough surface does.
+/// ln F = 1.5 δ − 0.05 δ² + 0.1 sin δ: F, F', F'' > 0 on [0, 4], and it bends like the curve of a
+/// rough surface.
 struct Bent {
   static double log_slope(double x) { return 1.5 - 0.1 * x + 0.1 * std::cos(x); }
   static double force(double x) { return std::exp(1.5 * x - 0.05 * x * x + 0.1 * std::sin(x)); }
@@ -22,7 +22,7 @@ struct Bent {
   }
 };
 
-/// `intervals` unequal steps over [0, 4]; the spacing alternates so that no cancellation of a
+/// `intervals` unequal steps over [0, 4]; the spacing alternates, so that no cancellation of a
 /// uniform grid helps.
 ForceCurve bent_curve(int intervals, bool with_stiffness) {
   ForceCurve curve;
@@ -35,8 +35,8 @@ ForceCurve bent_curve(int intervals, bool with_stiffness) {
   return curve;
 }
 
-/// Largest relative error in the middle of the table, where the ends' one-sided differences have no
-/// say.
+/// Maximum relative error in the middle of the table, which the one-sided differences at the ends
+/// do not affect.
 double worst(const std::function<double(double)>& law, const std::function<double(double)>& exact) {
   double error = 0;
   for (double x = 0.5; x < 3.5; x += 0.00137)
@@ -60,7 +60,7 @@ TEST_CASE("A paraboloid's power law is Hertz: K = 2E*a, F'' = E*R/a", "[law]") {
   CHECK(hertz.tangential_curvature(indentation) ==
         Approx(0.8 * modulus * radius / contact_radius).epsilon(1e-14));
   CHECK(hertz.indentation_of(hertz.force(indentation)) == Approx(indentation).epsilon(1e-14));
-  // Out of contact there is no force, and no stiffness to lose.
+  // Out of contact there is neither force nor stiffness.
   CHECK(hertz.force(-indentation) == 0);
   CHECK(hertz.normal_stiffness(-indentation) == 0);
   CHECK(hertz.force_curvature(0) == 0);
@@ -83,8 +83,8 @@ TEST_CASE("A table of an exponential law is the exponential law", "[law]") {
   CHECK(law.lowest_indentation() == -5e-7);
   CHECK(law.highest_indentation() == -1e-7);
   for (double indentation : {-5e-7, -4.1e-7, -3.2e-7, -2e-7, -1e-7}) {
-    // ln F is a straight line: only round-off of the slopes remains, and F'' divides it by a
-    // spacing once more.
+    // ln F is a straight line: only round-off of the slopes remains, which F'' divides by a
+    // spacing.
     CHECK(law.force(indentation) == Approx(exact.force(indentation)).epsilon(1e-13));
     CHECK(law.normal_stiffness(indentation) ==
           Approx(exact.normal_stiffness(indentation)).epsilon(1e-12));
@@ -161,7 +161,7 @@ TEST_CASE("A table says what it cannot use", "[law]") {
   CHECK_THROWS_AS(law.indentation_of(-1), InvalidInput);
   CHECK_THROWS_AS(TabulatedLaw(curve, 0), InvalidInput);
 
-  // Samples before first touch and those that did not converge do not count, wherever they lie.
+  // Samples before first touch and samples that did not converge do not count, wherever they lie.
   curve.samples.insert(curve.samples.begin(), {.indentation = -1, .force = 0});
   curve.samples.push_back({.indentation = 2, .force = 1e6, .converged = false});
   CHECK(TabulatedLaw(curve, 1).force(2.2) == law.force(2.2));

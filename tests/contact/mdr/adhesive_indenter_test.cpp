@@ -20,7 +20,7 @@ TEST_CASE("JKR of a paraboloid is the closed form of Johnson, Kendall and Robert
     CHECK(point.force == Approx(4 * modulus * std::pow(a, 3) / (3 * radius) -
                                 std::sqrt(8 * pi * work * modulus * std::pow(a, 3))));
     CHECK(point.indentation == Approx(a * a / radius - std::sqrt(2 * pi * work * a / modulus)));
-    // Their equation of the load, a³ = (3R/4E*)(F + 3πwR + √(6πwRF + (3πwR)²)), on the stable
+    // The paper's equation of the load, a³ = (3R/4E*)(F + 3πwR + √(6πwRF + (3πwR)²)), on the stable
     // branch.
     const double scale = 3 * pi * work * radius;
     if (a > 1.3e-5)
@@ -36,8 +36,8 @@ TEST_CASE("JKR of a paraboloid is the closed form of Johnson, Kendall and Robert
 
 TEST_CASE("JKR of power-law profiles comes off at the force of its exponent",
           "[adhesive_indenter]") {
-  // With g = c aⁿ: n c aⁿ = (3/2) d, d = √(2πwa/E*), and F = 2E*a[cn aⁿ/(n + 1) − d]
-  // = −(2n − 1)/(n + 1)·E*a·d, (2n − 1)/(n + 1) being 1 of a paraboloid, 1/2 of a cone.
+  // With g = c aⁿ: n c aⁿ = (3/2) d, d = √(2πwa/E*), and F = 2E*a[cn aⁿ/(n + 1) − d] = −(2n − 1)/(n
+  // + 1)·E*a·d, where (2n − 1)/(n + 1) is 1 for a paraboloid and 1/2 for a cone.
   const double n = GENERATE(1.0, 1.5, 2.0, 4.0);
   const double reference = 1e-5;
   const auto profile = power_profile(reference / std::pow(1e-4, n), n);
@@ -45,11 +45,11 @@ TEST_CASE("JKR of power-law profiles comes off at the force of its exponent",
   const double a = off.contact_radius, d = std::sqrt(2 * pi * work * a / modulus);
   CHECK(n * profile->image(a) == Approx(1.5 * d).epsilon(1e-9));
   CHECK(off.force == Approx(-(2 * n - 1) / (n + 1) * modulus * a * d).epsilon(1e-9));
-  // It is the least force.
+  // The force at pull-off is the minimum.
   for (const double factor : {0.9, 1.1})
     CHECK(jkr_contact(*profile, modulus, work, factor * a).force > off.force);
   if (n == 1) {
-    // A cone of angle θ to the plane: F = −54 w²/(πE* tan³θ) [Maugis and Barquins].
+    // A cone of angle θ to the plane has F = −54 w²/(πE* tan³θ) [Maugis and Barquins].
     const auto cone = cone_profile(0.3);
     CHECK(jkr_pull_off(*cone, modulus, work).force ==
           Approx(-54 * work * work / (pi * modulus * std::pow(std::tan(0.3), 3))).epsilon(1e-9));
@@ -80,7 +80,7 @@ TEST_CASE("Maugis and Dugdale's adhesion goes from DMT to JKR", "[adhesive_inden
     for (const double a : {1e-5, 3e-5}) {
       const AdhesivePoint point = model.contact(a);
       CHECK(point.zone_radius > a);
-      // The tension outside acts on the contact by the root of λ.
+      // The tension outside acts on the contact in proportion to the root of λ.
       if (tabor < 1e-3) {
         const AdhesivePoint dmt = dmt_contact(radius, modulus, work, a);
         CHECK(point.force == Approx(dmt.force).margin(0.02 * pi * work * radius));
@@ -100,9 +100,9 @@ TEST_CASE("Maugis and Dugdale's adhesion goes from DMT to JKR", "[adhesive_inden
 }
 
 TEST_CASE("The zone of Maugis and Dugdale ends where the gap is its range", "[adhesive_indenter]") {
-  // An independent way to the gap at c: the displacement of half-space and indenter there. Hertz's
-  // pressure of radius a gives u_1(c) = (1/πR)[a√(c² − a²) + (2a² − c²) asin(a/c)]; the constant
-  // tension σ within c and what balances it within a, Sneddon's crack, opens the edge by
+  // An independent route to the gap at c: the displacement of half-space and indenter there.
+  // Hertz's pressure of radius a gives u_1(c) = (1/πR)[a√(c² − a²) + (2a² − c²) asin(a/c)]. The
+  // constant tension σ within c and its balance within a, Sneddon's crack, open the edge by
   // (4σ/πE*)[√(c² − a²) acos(a/c) + a − c]. The first equation is ρ = c²/2R − a²/R + u_1 + u_2.
   for (const double range : {1e-8, 1e-7, 1e-6}) {
     const MaugisDugdale model(radius, modulus, work, range);

@@ -36,7 +36,7 @@ std::vector<Shape> shapes() {
   return list;
 }
 
-// Midpoint rule with the substitution left to the caller: a plain route of its own.
+// Midpoint rule; the caller substitutes variables. It is a plain independent route.
 double midpoint(const std::function<double(double)>& f, double low, double high, int n) {
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += f(low + (high - low) * (i + 0.5) / n);
@@ -50,7 +50,8 @@ TEST_CASE("Eq (3): closed images are the transform of the profile's slope", "[md
     for (const double x : {1.001e-4, 2e-4, 1e-3, 5e-3}) {
       CAPTURE(shape.name, x);
       const Estimate image = mdr_transform(shape.slope, x, shape.breaks);
-      // 1e-12 asked; the rounded punch's image is the small difference that is left near its edge.
+      // The quadrature aims at 1e-12; the image of the rounded punch is a small difference near its
+      // edge.
       CHECK(shape.profile->image(x) ==
             Approx(image.value).epsilon(1e-9).margin(10 * image.error + 1e-20));
       CHECK(image.error <= 1e-9 * std::abs(image.value) + 1e-18);
@@ -110,7 +111,8 @@ TEST_CASE("Forces of cone, paraboloid and sphere are Sneddon's and Hertz's", "[m
   CHECK(sphere.force(deep) ==
         Approx(contact_modulus * ((a * a + radius * radius) * std::atanh(0.5) - a * radius))
             .epsilon(1e-12));
-  // A shallow sphere is a paraboloid: relative difference a²/R² or so, and no digits are lost.
+  // A shallow sphere is a paraboloid: the relative difference is about a²/R², and no digits are
+  // lost.
   CHECK(sphere.force(1e-12) == Approx(hertz.force(1e-12)).epsilon(1e-9));
   const IndenterLaw punch(flat_punch_profile(1e-3), material);
   CHECK(punch.force(indentation) == Approx(2e9 * 1e-3 * indentation).epsilon(1e-14));
@@ -177,11 +179,11 @@ TEST_CASE("Outside the contact the surface is Hertz's, and far away a point forc
             ? indentation - r * r / (2 * radius)
             : indentation / pi *
                   ((2 - ratio * ratio) * std::asin(1 / ratio) + std::sqrt(ratio * ratio - 1));
-    // The closed form itself cancels: (r/a)⁴ ulp of 1.
+    // The closed form itself cancels to (r/a)⁴ ulp of 1.
     CHECK(law.surface_displacement(indentation, r) == Approx(hertz).epsilon(1e-10));
   }
-  // u_z = F/(πE*r); Hertz's pressure has no dipole, so that the next term is (a/r)² times a number
-  // of order 1.
+  // u_z = F/(πE*r); Hertz's pressure has no dipole, so the next term is (a/r)² times a number of
+  // order 1.
   const IndenterLaw cone(cone_profile(0.1), Material::of_moduli(1e9, 0.8e9));
   const double far = 1e3 * cone.contact_radius(indentation);
   CHECK(cone.surface_displacement(indentation, far) ==
@@ -194,7 +196,7 @@ TEST_CASE("The pressure carries the force, for every profile", "[mdr]") {
     CAPTURE(shape.name);
     const IndenterLaw law(shape.profile, material);
     const double indentation = 2e-6, a = law.contact_radius(indentation);
-    // r = a sin ψ: the edge's root is smooth in ψ; at the axis p is at most logarithmic or
+    // r = a sin ψ makes the root at the edge smooth in ψ; at the axis p is at most logarithmic or
     // r^{−0.3}.
     const double force = midpoint(
         [&](double angle) {
@@ -221,7 +223,7 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
     const auto profile = table(points);
     return std::abs(profile->image(1.23e-3) / exact->image(1.23e-3) - 1);
   };
-  // A cubic is interpolated exactly but where monotonicity limits the slopes, next to the axis.
+  // A cubic is interpolated exactly except next to the axis, where monotonicity limits the slopes.
   CHECK(error(41) < 1e-3);
   CHECK(error(161) < 1e-4);
   const auto profile = table(81);
@@ -235,8 +237,8 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
   CHECK(law.force(1e-7) == Approx(smooth.force(1e-7)).epsilon(1e-3));
   CHECK(profile->contact_radius(profile->image(1.1e-3)) == Approx(1.1e-3).epsilon(1e-12));
   CHECK(profile->image_error(1.5e-3) < 1e-3);
-  // Every other point of an even number misses the last one, which the coarser table needs all the
-  // same.
+  // Every other point of an even number of points leaves out the last one, but the coarser table
+  // needs it.
   CHECK(table(80)->image_error(largest) < 1e-3);
   CHECK_THROWS_WITH(law.force(1e-3), Catch::Contains("deeper"));
   CHECK_THROWS_WITH(law.indentation_of(1e6), Catch::Contains("force"));
@@ -244,8 +246,8 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
 
 TEST_CASE("The image of a table of a parabola is that of the paraboloid, wherever the edge is",
           "[mdr]") {
-  // A parabola is interpolated exactly. Widths of the pieces vary by 8, so that wide ones lie below
-  // narrow ones and above.
+  // A parabola is interpolated exactly. The widths of the pieces vary by 8, so that wide pieces lie
+  // below narrow ones and above them.
   std::vector<double> radii{0}, heights{0};
   for (int i = 0; i < 90; ++i) {
     radii.push_back(radii.back() + 1e-5 * (i % 10 == 3 ? 8 : 1));
@@ -253,8 +255,8 @@ TEST_CASE("The image of a table of a parabola is that of the paraboloid, whereve
   }
   const TabulatedProfile table(radii, heights);
   const auto exact = paraboloid_profile(0.01);
-  // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, some 100 of
-  // which make the profile.
+  // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, which lose a
+  // factor of about 100.
   for (int i = 1; i <= 400; ++i) {
     const double x = table.max_radius() * i / 400.;
     CAPTURE(x);
@@ -292,7 +294,7 @@ TEST_CASE("Unusable profiles are refused with the row", "[mdr]") {
   refuse([](Column&, Column& h) { h[2] = NAN; }, "3 is a row");
   refuse([](Column& r, Column& h) { r.resize(6), h.resize(6); }, "at least seven");
   refuse([](Column&, Column& h) { h.assign(9, 2.0); }, "flat punch");
-  refuse([](Column&, Column& h) { h = {0, 0, 0, 0, 0, 10, 10, 10, 200}; }, "more finely");
+  refuse([](Column&, Column& h) { h = {0, 0, 0, 0, 0, 10, 10, 10, 200}; }, "give more points");
   CHECK_THROWS_AS(cone_profile(pi / 2), InvalidInput);
   CHECK_THROWS_AS(paraboloid_profile(0), InvalidInput);
   CHECK_THROWS_AS(power_profile(1, -1), InvalidInput);

@@ -13,7 +13,7 @@ namespace {
 
 const Material material = Material::of_contact_modulus(4e6, 0.5);
 
-// G∞ is that of E* = 4 MPa and ν = 1/2; the second series is of a broad spectrum.
+// G∞ belongs to E* = 4 MPa and ν = 1/2; the second series has a broad spectrum.
 const PronySeries standard_solid{1e6, {{3e6, 0.02}}};
 const PronySeries broad{1e6, {{2e6, 1e-3}, {1e6, 0.03}, {4e6, 0.4}}};
 
@@ -41,7 +41,7 @@ std::vector<double> equal_steps(double end, int steps) {
   return time;
 }
 
-// Lee and Radok: ∫_0^end E(t − s) dF_el(δ(s))/E*∞, by the midpoint rule in F_el of many steps.
+// Lee and Radok: ∫_0^end E(t − s) dF_el(δ(s))/E*∞, by the midpoint rule in F_el with many steps.
 double hereditary(const IndenterLaw& law, const PronySeries& prony,
                   const std::function<double(double)>& indentation, double end, double t) {
   constexpr int steps = 20000;
@@ -73,7 +73,7 @@ TEST_CASE("A contact that grows has the force of the correspondence principle", 
               Approx(law.contact_radius(indentation(end))).epsilon(1e-12));
         return std::abs(found.force.back() / exact - 1);
       };
-      // Straight steps and midpoints of springs: both of second order.
+      // Straight steps and midpoints of springs are both of second order.
       const double coarse = error(120), fine = error(480);
       CHECK(fine < 2e-5);
       CHECK(std::log2(coarse / fine) / 2 == Approx(2).margin(0.15));
@@ -82,8 +82,8 @@ TEST_CASE("A contact that grows has the force of the correspondence principle", 
 
 TEST_CASE("One rise and fall is Ting's solution: force, contact radius and the end of contact",
           "[viscoelastic]") {
-  // δ = vt up to T, v(2T − t) after it. Ting (1966): the edge at t is that of the time t1 at which
-  // it passed on its way out,
+  // δ = vt up to T, v(2T − t) after it. Ting (1966): the edge at t lies where it was at the time t1
+  // on its way out,
   //     ∫_{t1}^t E(t − s) δ'(s) ds = 0,    F = ∫_0^{t1} E(t − s) dF_el(δ(s))/E*∞,
   // in closed form for the standard linear solid.
   const double rate = 1e-4, turn = 0.05;
@@ -124,7 +124,8 @@ TEST_CASE("One rise and fall is Ting's solution: force, contact radius and the e
       const double t = time[std::size_t(i)];
       CAPTURE(t, parting);
       const double t1 = t < turn ? t : touched_at(t);
-      // 400 springs: (1/400)² of the largest force, and the radius to a tenth of their distance.
+      // 400 springs give (1/400)² of the maximum force, and the radius to a tenth of their
+      // distance.
       CHECK(found.force[std::size_t(i)] ==
             Approx(hereditary(law, standard_solid, indentation, t1, t)).margin(1e-5 * largest));
       const double radius = t1 > 0 ? law.contact_radius(indentation(t1)) : 0;
@@ -140,9 +141,9 @@ TEST_CASE(
     "Repeated contact: each spring is that of a fine integration, and the half-space's "
     "inequalities hold",
     "[viscoelastic]") {
-  // Several unlike rises and falls: the indenter meets a surface that has not recovered. q falls
-  // with x and the gap of the foundation is >= 0, hence p >= 0 within one circle and no penetration
-  // outside it, by the transforms of docs/theory.md, section 9.
+  // With several unlike rises and falls the indenter meets a surface that has not recovered. q
+  // falls with x and the gap of the foundation is >= 0; hence p >= 0 within one circle and no
+  // penetration outside it, by the transforms of docs/theory.md, section 9.
   const auto indentation = [](double t) {
     return 3e-6 * (0.4 + std::sin(40 * t) + 0.7 * std::sin(97 * t + 1) + 0.3 * t);
   };
@@ -158,7 +159,8 @@ TEST_CASE(
       double load_within = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < found.spring_position.size(); k += 3) {
         const double x = found.spring_position[k], load = found.spring_load[k];
-        const double spring_depth = profile->image(x), gap = found.spring_displacement[k] - (at - spring_depth);
+        const double spring_depth = profile->image(x),
+                     gap = found.spring_displacement[k] - (at - spring_depth);
         CAPTURE(end, x, spring_depth, at);
         CHECK(load <= load_within);
         load_within = load;
@@ -167,7 +169,7 @@ TEST_CASE(
         CHECK((load == 0 || std::abs(gap) < 1e-18));
         recovering += load == 0 && found.spring_displacement[k] > 1e-9;
 
-        // z_i' = (w − z_i)/τ_i with w = max(D, Σ κ_i z_i), Heun's method in 40000 steps.
+        // z_i' = (w − z_i)/τ_i with w = max(D, Σ κ_i z_i), by Heun's method in 40000 steps.
         double z[3]{}, w = 0;
         const auto surface = [&](const double* state, double t) {
           double sum = 0;
@@ -191,7 +193,8 @@ TEST_CASE(
         w = surface(z, end);
         double force = unrelaxed * w;
         for (int i = 0; i < 3; ++i) force -= ratios[i] * z[i];
-        // 4000 straight steps of the path: 1e-5 of its height. Largest load: E*(0) times that.
+        // 4000 straight steps of the path give 1e-5 of its height; the maximum load is E*(0) times
+        // that.
         CHECK(found.spring_displacement[k] == Approx(w).margin(2e-5 * 6e-6));
         CHECK(load == Approx(2 * law.contact_modulus() * force)
                           .margin(2e-5 * 6e-6 * 2 * unrelaxed * law.contact_modulus()));
@@ -215,9 +218,10 @@ TEST_CASE("Without terms, fast and slow: the elastic contact of the relaxed or t
                             fast = force(standard_solid, 1e-9);
   for (const std::size_t i : {20, 60, 100, 150, 190}) {
     const double exact = law.force(rise_and_fall(shape[i]));
-    // The midpoints of 400 springs.
+    // Error of the midpoints of 400 springs.
     CHECK(elastic[i] == Approx(exact).epsilon(1e-5));
-    // First order in τ/duration and duration/τ: 2e-7 and 5e-8, times the ratio of moduli.
+    // The errors are of first order in τ/duration and duration/τ: 2e-7 and 5e-8, times the ratio of
+    // moduli.
     CHECK(slow[i] == Approx(elastic[i]).epsilon(1e-5));
     CHECK(fast[i] == Approx(4 * elastic[i]).epsilon(1e-6));
   }
@@ -243,7 +247,7 @@ TEST_CASE("A series is refused by the number of its term", "[viscoelastic]") {
 }
 
 TEST_CASE("Complex modulus of a standard solid", "[viscoelastic]") {
-  // G∞ + G iωτ/(1 + iωτ): at ωτ = 1 half of G is stored and half is lost.
+  // G∞ + G iωτ/(1 + iωτ): at ωτ = 1 one half of G is stored and one half is lost.
   const std::complex<double> modulus = standard_solid.complex_modulus(50);
   CHECK(modulus.real() == Approx(2.5e6));
   CHECK(modulus.imag() == Approx(1.5e6));

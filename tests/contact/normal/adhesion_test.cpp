@@ -25,7 +25,7 @@ using std::numbers::pi;
 
 namespace {
 
-// Cells are 1 m and E* is 1 Pa here: lengths in cells, pressures in E*.
+// Cells are 1 m wide and E* is 1 Pa, so lengths are in cells and pressures in E*.
 Grid2D cells(Index nx, Index ny) {
   return {nx, ny, static_cast<double>(nx), static_cast<double>(ny)};
 }
@@ -34,7 +34,8 @@ Surface steep(Index points, std::uint64_t seed = 1) {
   return rough_surface(cells(points, points), {.cutoff = 16, .rms_slope = 0.5, .seed = seed});
 }
 
-/// Energy per area of a gap at a pressure, from its definition, and its gradient. Units as above.
+/// Energy per area of a gap at a pressure, from its definition, and its gradient, in the units
+/// above.
 class EnergyOfGap {
  public:
   EnergyOfGap(const Surface& surface, const Adhesion& adhesion, double pressure)
@@ -64,7 +65,7 @@ class EnergyOfGap {
   }
 
  private:
-  // The transforms may or may not be normalised: asked once.
+  // Measures once whether the transforms are normalised.
   double response_scale(const Field& like) {
     if (scale_ > 0) return scale_;
     RealFft2D<double> fft(like.rows(), like.cols());
@@ -82,8 +83,8 @@ class EnergyOfGap {
   std::vector<std::complex<double>> modes_;
 };
 
-/// A minimum of the energy over gaps >= 0, by projected gradients with Barzilai and Borwein's steps,
-/// each of which may raise the energy: none of the solver's parts or ideas.
+/// Finds a minimum of the energy over gaps >= 0 by projected gradients with Barzilai and Borwein's
+/// steps, each of which may raise the energy. It shares no code and no idea with the solver.
 Field minimised(EnergyOfGap& energy, Field gap) {
   Field gradient(gap.rows(), gap.cols());
   energy(gap, &gradient);
@@ -135,8 +136,8 @@ TEST_CASE("Potentials are concave, and their tension is their derivative", "[adh
 }
 
 TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
-  // The claim of the method, with contacts of its own: t = φ'(g), then the contact of the heights
-  // h + Gt under P + ⟨t⟩. A contact to e_c may miss its minimum by e_c P' h_rms, 1e-11 of the energy
+  // Repeats the method with the test's own contacts: t = φ'(g), then the contact of the heights h +
+  // Gt under P + ⟨t⟩. A contact to e_c may miss its minimum by e_c P' h_rms, 1e-11 of the energy
   // here.
   const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, GENERATE(1.0, 3.0)};
   const double pressure = GENERATE(0.002, 0.03);
@@ -147,7 +148,7 @@ TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
     Field tension = Field::Zero(32, 32);
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 12; ++step) {
-      // Gt: the heights of which t is the pressure, by a contact that is full.
+      // Gt are the heights for which a full contact has the pressure t.
       Surface raised = surface;
       std::vector<std::complex<double>> modes(static_cast<std::size_t>(32 * fft.modes_y()));
       Field copy = tension, lifted(32, 32);
@@ -161,7 +162,8 @@ TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
           modes[static_cast<std::size_t>(i * fft.modes_y() + j)] *= q > 0 ? 2 / q : 0;
         }
       fft.backward(modes.data(), lifted.data());
-      // The normalisation of forward and backward together is that of forward of its mean.
+      // Forward and backward transforms together have the normalisation with which forward maps a
+      // mean.
       if (tension.sum() > 0) raised.heights += lifted / (zero_mode * 1024);
       const NormalContactState contact =
           press(raised, 1, at_pressure(pressure + tension.mean()), {.tolerance = 1e-13});
@@ -175,8 +177,8 @@ TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
 }
 
 TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
-  // On a branch that is followed, steps are plain until the residual is small. Each contact may miss
-  // its minimum by e_c ⟨p⟩ h_rms.
+  // If a branch is followed, steps are plain until the residual is small. Each contact may miss its
+  // minimum by e_c ⟨p⟩ h_rms.
   const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, 2.7};
   const Surface surface = steep(48, GENERATE(1u, 2u));
   const Field none = Field::Zero(48, 48);
@@ -190,7 +192,7 @@ TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
         state.residual * state.contact_pressure.mean() * rms_height(surface) * surface.grid.area();
     if (contacts > 1) {
       CHECK(state.total_energy <= before.total_energy + 2 * noise);
-      // The tension is that of the gap before, but for cells that touch since.
+      // The tension is that of the previous gap, except in cells that have come into contact since.
       const Field of_gap =
           (before.contact_pressure > 0)
               .select(adhesion.max_tension(),
@@ -203,8 +205,8 @@ TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
 }
 
 TEST_CASE("Where cells decide what sticks, extrapolation alone leads nowhere", "[adhesion]") {
-  // Two cells in the process zone: the solver goes on from the last contact that lowered the energy.
-  // Without that it stalls at a residual of 0.06.
+  // Two cells lie in the process zone: the solver returns to the last contact that lowered the
+  // energy. Without that it stalls at a residual of 0.06.
   const Surface surface = rough_surface(cells(96, 96), {.cutoff = 16, .rms_slope = 1, .seed = 1});
   const AdhesiveContactState state =
       press_adhesive(surface, 1, at_pressure(0.01), {AdhesionPotential::exponential, 0.9, 1.33},
@@ -214,8 +216,8 @@ TEST_CASE("Where cells decide what sticks, extrapolation alone leads nowhere", "
 }
 
 TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesion]") {
-  // The other method starts beside it. Its energy is right to the square of its residual, that of
-  // the solver as well.
+  // The other method starts near the solution. The errors of its energy and of the solver's are the
+  // squares of their residuals.
   const Adhesion adhesion{
       GENERATE(AdhesionPotential::exponential, AdhesionPotential::van_der_waals), 0.1, 3};
   const double pressure = GENERATE(0.003, 0.03);
@@ -234,7 +236,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
   CHECK(state.total_energy / surface.grid.area() == Approx(expected).epsilon(1e-8));
   CHECK(((other > 1e-9) == (gap > 1e-9)).all());
 
-  // What the state says of itself.
+  // The numbers that the state reports.
   CHECK(state.mean_pressure == Approx(pressure).epsilon(1e-9));
   CHECK(state.tension_force == Approx(integral_of_tension(state, adhesion)).epsilon(1e-6));
   CHECK(state.contact_pressure.mean() - state.tension.mean() == Approx(pressure).epsilon(1e-9));
@@ -242,7 +244,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
             pressure * state.mean_gap * surface.grid.area() ==
         Approx(state.total_energy).epsilon(1e-12));
   CHECK(state.mean_gap == Approx(gap.mean()).epsilon(1e-9));
-  // The contact sticks: more of it touches than without adhesion.
+  // Adhesion increases the contact area.
   CHECK(state.contact_area_fraction >
         press(surface, 1, at_pressure(pressure)).contact_area_fraction);
 }
@@ -262,7 +264,8 @@ TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[
         at_force(loaded.force)}) {
     const AdhesiveContactState same = press_adhesive(surface, 1, target, adhesion, from_there);
     REQUIRE(same.converged());
-    // Where the solver stops, t is wrong by its tolerance, and so is the mean of it.
+    // The solver stops with an error of t within its tolerance, and the mean of t has the same
+    // error.
     CHECK(same.mean_pressure == Approx(0.02).epsilon(1e-5));
     CHECK(same.mean_gap == Approx(loaded.mean_gap).epsilon(1e-6));
     CHECK(same.contact_area_fraction == Approx(loaded.contact_area_fraction).epsilon(1e-3));
@@ -271,8 +274,8 @@ TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[
 
 TEST_CASE("The energy of a contact at a load falls with the load by its indentation",
           "[adhesion]") {
-  // E is a minimum over gaps, so only its last term feels the load: dE/dP = ū A of a periodic
-  // surface, dE/dF = −δ of an isolated one. Central differences of 1 %.
+  // E is a minimum over gaps, so only its last term depends on the load: dE/dP = ū A for a periodic
+  // surface, dE/dF = −δ for an isolated one. Central differences of 1 %.
   const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 2};
   const Surface rough = steep(48, 3);
   const Surface sphere = surface_of(cells(64, 64), [](double x, double y) {
@@ -296,7 +299,7 @@ TEST_CASE("The energy of a contact at a load falls with the load by its indentat
     };
     CHECK((energy_at(1.01) - energy_at(0.99)) / (0.02 * force) ==
           Approx(periodic ? middle.mean_gap : -middle.indentation).epsilon(1e-4));
-    // The same contact by its indentation.
+    // The same contact at a given indentation.
     const AdhesiveContactState same =
         press_adhesive(surface, 1, at_indentation(middle.indentation), adhesion, options);
     REQUIRE(same.converged());
@@ -316,9 +319,9 @@ TEST_CASE("Without work of adhesion the contact is the ordinary one", "[adhesion
 }
 
 TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
-  // Unloading of an isolated paraboloid, from a contact on. The tension w/ρ ends at a circle of the
-  // radius c, some 30 cells, which the cells hold back by about half of one: πcw/ρ of a cell,
-  // c/(ρR) of πwR, a tenth of the pull-off, and it falls with the cell.
+  // Unloading of an isolated paraboloid from a contact. The tension w/ρ ends at a circle of radius
+  // c, about 30 cells, which the cells shift by about half a cell: an error of πcw/ρ of a cell,
+  // c/(ρR) of πwR, a tenth of the pull-off, which falls with the cell.
   const double tabor = GENERATE(0.1, 0.5, 1.0, 2.0);
   const auto error_at = [&](Index points) {
     const double cell = 128.0 / static_cast<double>(points);
@@ -331,7 +334,7 @@ TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
     const Adhesion adhesion{AdhesionPotential::maugis, work, range};
     const MaugisDugdale model(radius, 1, work, range);
     const AdhesivePoint off = model.pull_off();
-    AdhesiveContactOptions options{.force_coarse = true};  // of the coarse cells at 2
+    AdhesiveContactOptions options{.force_coarse = true};  // at 2 the coarse cells are too few
     options.contact.boundary = Boundary::free;
     Field tension;
     double worst = 0, least = 0;
@@ -359,14 +362,14 @@ TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
   };
   const double coarse = error_at(64), fine = error_at(128);
   CAPTURE(coarse, fine);
-  // At 0.1 both are right to 1 %, by chance.
+  // At 0.1 both are accurate to 1 %, by chance.
   CHECK(fine < std::max(0.75 * coarse, 0.02));
 }
 
 TEST_CASE("A wavy surface of short range is Johnson's", "[adhesion]") {
-  // Johnson (1995): p = p*[sin²ψ − α √tan ψ], ψ = πa/λ, for the half-width a of the contacts of
-  // Δ cos(2πx/λ), p* = πE*Δ/λ, α² = 2λw/(π²Δ²E*). The range is not nothing: a is uncertain by the
-  // zone of 8 cells of 512.
+  // Johnson (1995): p = p*[sin²ψ − α √tan ψ], ψ = πa/λ, for the half-width a of the contacts of Δ
+  // cos(2πx/λ), p* = πE*Δ/λ, α² = 2λw/(π²Δ²E*). The range is finite, so a is uncertain by the
+  // process zone of 8 cells of 512.
   constexpr Index points = 512;
   constexpr double wavelength = points, amplitude = 20, work = 0.6;
   const Grid2D grid = cells(4, points);
@@ -405,7 +408,7 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
       cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
   const AdhesiveContactState pressed = press_adhesive(surface, 1, at_pressure(0.05), adhesion);
   REQUIRE(pressed.converged());
-  // Held at no load, and by a small pull.
+  // The contact survives without load and under a small pull.
   AdhesiveContactOptions follow;
   follow.start_tension = &pressed.tension;
   const AdhesiveContactState held =
@@ -414,7 +417,8 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
   CHECK_FALSE(held.detached);
   CHECK(held.contact_area_fraction > 0);
   CHECK(held.mean_pressure == Approx(-0.002).epsilon(1e-6));
-  // Without its history the pull parts the surfaces, and beyond all tension with it.
+  // Without its history the same pull separates the surfaces; a pull beyond the maximum tension
+  // separates them with it.
   CHECK(press_adhesive(surface, 1, at_pressure(-0.1), adhesion).detached);
   const AdhesiveContactState parted =
       press_adhesive(surface, 1, at_pressure(-0.2), adhesion, follow);
@@ -422,7 +426,7 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
   CHECK(parted.detached);
   CHECK(std::isinf(parted.mean_gap));
   CHECK(parted.contact_area_fraction == 0);
-  // Loading at a gap where the other branch still touches: hysteresis.
+  // Loading to a gap at which the unloading branch still touches shows hysteresis.
   const double gap = surface.heights.maxCoeff() - surface.heights.mean() + 1;
   const AdhesiveContactState loading = press_adhesive(surface, 1, at_mean_gap(gap), adhesion);
   const AdhesiveContactState unloading =
@@ -434,11 +438,11 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
 
 TEST_CASE("A first loading with adhesion is the adhesive contact of the surface that it leaves",
           "[adhesion][first_loading]") {
-  // A fifth to a half of what touches flows. Both solvers stop at 1e-8 of the tension.
+  // A fifth to a half of the contact yields. Both solvers stop at 1e-8 of the tension.
   const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, 3};
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   Surface surface = steep(48);
-  if (boundary == Boundary::free) {  // a cap, whose edge nothing holds
+  if (boundary == Boundary::free) {  // a cap, at whose edge there is no tension
     for (Index i = 0; i < 48; ++i)
       for (Index j = 0; j < 48; ++j) surface.heights(i, j) -= std::hypot(i - 24.0, j - 24.0) * 3;
     surface.periodic = false;
@@ -461,14 +465,15 @@ TEST_CASE("A first loading with adhesion is the adhesive contact of the surface 
   CHECK((elastic.contact_pressure - state.contact_pressure).abs().maxCoeff() < 1e-6);
   CHECK(elastic.elastic_energy == Approx(state.elastic_energy).epsilon(1e-7));
   CHECK(elastic.adhesive_energy == Approx(state.adhesive_energy).epsilon(1e-7));
-  // Both indentations count from the highest point of their own surface.
+  // Each indentation counts from the highest point of its own surface.
   const double lower = surface.heights.maxCoeff() - left.surface.heights.maxCoeff();
   CHECK(elastic.indentation + lower == Approx(state.indentation).epsilon(1e-7));
 }
 
 TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][first_loading]") {
-  // By its definition, with another transform. A wrong bound, such as one of p alone, makes one of
-  // the changes lower it: the first derivative is then a tenth of the change.
+  // Compares with the definition of the energy, by another transform. With a wrong bound, such as
+  // one for p alone, one of the changes lowers the energy: its first derivative is then a tenth of
+  // the change.
   const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 3};
   const double hardness = 0.3, pressure = 0.05;
   const Surface surface = steep(48);
@@ -500,7 +505,8 @@ TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][fir
 
 TEST_CASE("Under a tension that reaches far a first loading is that of the load and the tension",
           "[adhesion][first_loading]") {
-  // The tension of Maugis's potential is w/ρ at each gap below ρ: a load more, and a bound more.
+  // The tension of Maugis's potential is w/ρ at each gap below ρ: it adds to the load and to the
+  // bound.
   const Adhesion adhesion{AdhesionPotential::maugis, 10, 100};
   const Surface surface = steep(48);
   AdhesiveContactOptions options;
@@ -558,7 +564,7 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
     });
     CHECK(right == ranks);
   }
-  // So has a cycle, whose states follow from each other.
+  // The same holds for a cycle, whose states follow from each other.
   const auto work = [&](int threads) {
     parallel::set_threads(threads);
     return adhesive_cycle(steep(32), 1, {at_mean_gap(9), at_mean_gap(5), at_mean_gap(3)}, adhesion,
@@ -583,7 +589,7 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
     }
     return "";
   };
-  const OperatingPoint loadat_pressure(0.01);
+  const OperatingPoint load = at_pressure(0.01);
   CHECK(message(load, {.work = -1, .range = 1}, {}).find("work_of_adhesion") == 0);
   CHECK(message(load, {.work = 1, .range = 0}, {}).find("adhesion_range") == 0);
   const std::string coarse = message(load, {.work = 1, .range = 0.5}, {});
@@ -624,7 +630,7 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
 
 namespace {
 
-/// Mean gaps from beyond every force to a part of that of first touch.
+/// Mean gaps from out of range of all forces to a part of the gap at first touch.
 std::vector<OperatingPoint> way_in(const Surface& surface, double from, int steps,
                                    double closed = 0.6) {
   const double touch = surface.heights.maxCoeff() - surface.heights.mean();
@@ -638,7 +644,7 @@ std::vector<OperatingPoint> way_in(const Surface& surface, double from, int step
 
 TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does not stick none",
           "[adhesion]") {
-  // Spots snap in and off, a tenth of E* at a time.
+  // Spots snap in and off, one tenth of E* at a time.
   const Surface soft = rough_surface(
       cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 8, .rms_slope = 0.1, .seed = 3});
   const Adhesion sticky{AdhesionPotential::exponential, 0.2, 0.632};
@@ -651,23 +657,23 @@ TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does no
   REQUIRE((lossy.converged() && coarser.converged()));
   CHECK(lossy.adhesion_work_per_cycle > 2 * lossy.adhesion_work_error);
   CHECK(lossy.reversible() == false);
-  // Half of the steps lose the same within what they state.
+  // With half of the steps the loss agrees within the stated errors.
   CHECK(std::abs(coarser.adhesion_work_per_cycle - lossy.adhesion_work_per_cycle) <=
         coarser.adhesion_work_error + lossy.adhesion_work_error);
 
   const Surface surface = rough_surface(
       cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
   const double touch = surface.heights.maxCoeff() - surface.heights.mean();
-  // A hundredth of the work over four times the range: both branches are one.
+  // With a hundredth of the work over four times the range both branches coincide.
   const Adhesion weak{AdhesionPotential::exponential, 0.003, 8};
   const AdhesiveCycle closed = adhesive_cycle(surface, 1, way_in(surface, touch + 120, 24), weak,
                                               {.contact = {.tolerance = 1e-7}, .unload = true});
   REQUIRE(closed.converged());
-  double there = 0;  // what the way in alone takes
+  double there = 0;  // work of loading alone
   for (std::size_t k = 0; k + 1 < closed.loading.size(); ++k)
     there += std::abs(closed.loading[k].force + closed.loading[k + 1].force) / 2 *
              (closed.loading[k + 1].indentation - closed.loading[k].indentation);
-  // Both branches are known to the tolerance of their contacts.
+  // Each branch is accurate to the tolerance of its contacts.
   CHECK(std::abs(closed.adhesion_work_per_cycle) < 1e-3 * there);
   CHECK(std::abs(closed.adhesion_work_per_cycle) <= closed.adhesion_work_error);
   CHECK(closed.reversible() == true);
@@ -675,8 +681,8 @@ TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does no
 
 TEST_CASE("Out of the closest position no work is lost below the amplitude that a cycle states",
           "[adhesion]") {
-  // A sphere snaps in and off. From the closest position on, unloading retraces loading as far as
-  // it had snapped in.
+  // A sphere snaps in and off. From the smallest gap, unloading retraces loading back to the point
+  // where the sphere had snapped in.
   const Surface sphere = surface_of(cells(64, 64), [](double x, double y) {
     return -(std::pow(x - 31.5, 2) + std::pow(y - 31.5, 2)) / 80;
   });
@@ -695,11 +701,11 @@ TEST_CASE("Out of the closest position no work is lost below the amplitude that 
   CHECK(cycle.pull_off_pressure * sphere.grid.area() > 1.5 * pi * 0.5 * 40);
   CHECK(cycle.reversible_amplitude > 1);
   CHECK(cycle.reversible_amplitude_error == Approx(0.25));
-  // The position where loading had snapped in begins the way that is retraced.
+  // The retraced part begins where loading had snapped in.
   const auto place =
       static_cast<std::size_t>(24 - std::lround(2 * cycle.reversible_amplitude / 0.5));
   CHECK(cycle.loading[place].force < -2 * std::abs(cycle.loading[place - 1].force));
-  // A cycle of its own from there loses nothing.
+  // A separate cycle from there loses nothing.
   options.on_state = {};
   options.contact.start_tension = &tensions[place];
   const AdhesiveCycle within = adhesive_cycle(
@@ -723,11 +729,12 @@ TEST_CASE("Under pressures a cycle pulls until the surfaces part", "[adhesion]")
   for (std::size_t k = 3; k + 1 < cycle.unloading.size(); ++k)
     CHECK(cycle.unloading[k + 1].mean_pressure < cycle.unloading[k].mean_pressure);
   CHECK(std::isnan(cycle.adhesion_work_per_cycle));
-  // At mean gaps the force passes the same pull, as closely as the gaps come to it.
+  // Under controlled mean gap the force passes the same maximum pull, as closely as the steps of
+  // the gap allow.
   const AdhesiveCycle by_gap =
       adhesive_cycle(surface, 1, way_in(surface, 40, 80, 0.05), sticky, {.unload = true});
   CHECK(by_gap.pull_off_pressure == Approx(cycle.pull_off_pressure).epsilon(0.05));
-  // By 3 % more the last state comes off.
+  // Under a pull larger by 3 % the last state separates.
   std::vector<OperatingPoint> way{at_pressure(0.05)};
   for (const AdhesiveContactState& state : cycle.unloading)
     way.push_back(at_pressure(state.mean_pressure));

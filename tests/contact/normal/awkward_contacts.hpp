@@ -12,7 +12,7 @@
 
 namespace salebra::test {
 
-// One contact with E* = 1 that solvers have been known to fail on.
+// A contact with E* = 1 of a kind on which solvers have failed.
 struct AwkwardContact {
   std::string name;
   Surface surface;
@@ -31,7 +31,7 @@ inline AwkwardContact awkward_surface(int k, Index n) {
           surface, 0.1 * load};
 }
 
-// Shapes with corners, plateaus and isolated cells, from a touch to full contact.
+// Shapes with corners, plateaus and isolated cells, from first touch to full contact.
 inline std::vector<AwkwardContact> awkward_shapes(Index n) {
   using std::numbers::pi;
   using Height = std::function<double(double, double)>;

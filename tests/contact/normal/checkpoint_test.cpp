@@ -15,7 +15,7 @@ using salebra::testing::run_ranks;
 
 namespace {
 
-// A contact with the pressure after each of its iterations.
+// A contact, and its pressure after each iteration.
 struct Watched {
   NormalContactState state;
   std::vector<Field> pressures;
@@ -52,18 +52,18 @@ TEST_CASE("Checkpoints change no bit of a contact, and a later one starts from t
   CHECK((watched.state.contact_pressure == plain.contact_pressure).all());
   CHECK((watched.state.gap == plain.gap).all());
 
-  // None of the coarser grids.
+  // Coarser grids take no checkpoints.
   REQUIRE(static_cast<int>(watched.pressures.size()) == plain.iterations);
   for (const Field& present : watched.pressures) {
     CHECK((present >= 0 && present <= std::min(1.0, options.hardness * (1 + 1e-14))).all());
     CHECK((present > 0).any());
   }
-  // Checkpoints are in Pa, not in the units of the solver: the last one is the result but for its
-  // last correction of the load.
+  // Checkpoints are in Pa, not in the units of the solver: the last one is the result except for
+  // the last correction of the load.
   CHECK(watched.pressures.back().mean() == Approx(pressure).epsilon(1e-3));
 
-  // As float, as a file keeps it. The residual is an energy of the order of the square of the
-  // error, hence 1e-10 leaves 1e-5 of the gap.
+  // Float, because a file stores float. The residual is an energy of the order of the square of the
+  // error, so 1e-10 leaves 1e-5 of the gap.
   const Field start = watched.pressures[watched.pressures.size() / 2].cast<float>().cast<double>();
   options.initial_pressure = &start;
   const NormalContactState continued = press(surface, 1, at_pressure(pressure), options);
@@ -107,7 +107,7 @@ TEST_CASE("Gradient projection keeps its bits beside checkpoints too", "[normal]
                                  Boundary::periodic,
                                  {surface.heights.data()},
                                  1,
-                                 {.value = 5e-3}},
+                                 {ControlQuantity::pressure, 5e-3}},
                                 limits, p.data(), g.data(), outcome);
     return outcome;
   };
@@ -119,7 +119,8 @@ TEST_CASE("Gradient projection keeps its bits beside checkpoints too", "[normal]
                                        .take_checkpoint =
                                            [&] {
                                              ++count;
-                                             watched *= 3;  // as into other units
+                                             watched *= 3;  // the callback may change it, for
+                                                            // example its units
                                            }};
   REQUIRE(solve(limits, watched).converged());
   CHECK(count > 1);

@@ -19,17 +19,17 @@ using std::numbers::pi;
 
 namespace {
 
-/// Conductance of a contact set between two half-spaces with a periodic cell, from the potential
-/// problem: the current density i of the cells enters each body, whose potential is
+/// Conductance of a contact set between two half-spaces in a periodic cell, from the potential
+/// problem. The current density i of the cells enters each body, whose potential is
 ///     V̂ = ρ î/|q|,   ∇²V = 0 below,   −(1/ρ)∂V/∂z = i,   mean zero,
-/// by a sum over waves, and V of both bodies together is 1 on the set. It is solved as a dense
-/// system of that set alone.
+/// by a sum over waves. V of both bodies together is 1 on the set, which is a dense system for the
+/// set alone.
 double potential_solve(const ContactSet& set, const Grid2D& grid, double resistivity) {
   std::vector<std::pair<Index, Index>> cells;
   for (Index i = 0; i < grid.nx; ++i)
     for (Index j = 0; j < grid.ny; ++j)
       if (set(i, j)) cells.emplace_back(i, j);
-  Field potential = Field::Zero(grid.nx, grid.ny);  // of a unit current density in cell (0, 0)
+  Field potential = Field::Zero(grid.nx, grid.ny);  // for a unit current density in cell (0, 0)
   for (Index a = -(grid.nx - 1) / 2; a <= grid.nx / 2; ++a)
     for (Index b = -(grid.ny - 1) / 2; b <= grid.ny / 2; ++b) {
       if (a == 0 && b == 0) continue;
@@ -64,9 +64,9 @@ TEST_CASE("The conductance by the stiffness is that of a potential solve on the 
       press(rough_surface(grid), modulus, at_pressure(part * 0.1 * modulus));
   REQUIRE(state.converged());
   const ContactSet set = contact_set(state);
-  // Both bodies have the potential of one with the sum of the resistivities.
+  // Two bodies have the potential of one body with the sum of their resistivities.
   const double expected = potential_solve(set, grid, first + second);
-  // The stiffness is a minimum: its error is of the order of the square of the tolerance.
+  // The stiffness is an extremum, so its error is of the order of the square of the tolerance.
   const PunchStiffness punch = punch_stiffness(set, grid, modulus, {.tolerance = 1e-7});
   REQUIRE(punch.converged());
   CHECK(electrical_conductance(punch.normal_stiffness, modulus, first, second) ==
@@ -76,7 +76,7 @@ TEST_CASE("The conductance by the stiffness is that of a potential solve on the 
 }
 
 TEST_CASE("A circular spot conducts as Holm's", "[conductance]") {
-  // K = 2E*a of a circular punch gives C = 4a/(ρ_1 + ρ_2): 2a/ρ of two equal bodies.
+  // A circular punch, K = 2E*a, has C = 4a/(ρ_1 + ρ_2), which is 2a/ρ for equal bodies.
   constexpr double radius = 3e-6, modulus = 1e11, resistivity = 1.7e-8;
   const double stiffness = 2 * modulus * radius;
   CHECK(electrical_conductance(stiffness, modulus, resistivity, resistivity) ==

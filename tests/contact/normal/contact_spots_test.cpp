@@ -15,7 +15,7 @@ using namespace salebra;
 
 namespace {
 
-/// A spot for each letter, no contact at dots; pressure 2 in each cell.
+/// Draws a spot for each letter; dots are no contact; the pressure is 2 in each contact cell.
 Field drawn(const std::vector<std::string>& rows) {
   Field pressure(static_cast<Index>(rows.size()), static_cast<Index>(rows[0].size()));
   for (Index ix = 0; ix < pressure.rows(); ++ix)
@@ -35,7 +35,7 @@ TEST_CASE("Spots are cells joined by edges, across a periodic border too", "[spo
                                 "a..dd.."});
   const Grid2D grid{5, 7, 10, 7};  // cells of 2 × 1
   const ContactSpots periodic = contact_spots(pressure, grid);
-  // a wraps along both axes; d touches b across the border along x.
+  // Spot a wraps along both axes; d touches b across the border along x.
   REQUIRE(periodic.spots.size() == 3);
   CHECK(periodic.spots[0].area == Approx(12));
   CHECK(periodic.spots[0].force == Approx(24));
@@ -62,7 +62,7 @@ TEST_CASE("The perimeter runs along cell edges and corrects the area by a share 
     CHECK(spots.corrected_area_fraction ==
           Approx((6 - 10 * (3.14159265358979 - 1 + 0.69314718055995) / 24) / 24).epsilon(1e-12));
   }
-  // A contact that fills a free grid ends at its border, one that fills a period has no edge.
+  // A full contact on a free grid ends at the border; on a periodic grid it has no edge.
   const Field full = Field::Constant(4, 6, 1.0);
   CHECK(contact_spots(full, grid, Boundary::free).perimeter == Approx(28));
   CHECK(contact_spots(full, grid).perimeter == 0);
@@ -72,7 +72,7 @@ TEST_CASE("The perimeter runs along cell edges and corrects the area by a share 
 }
 
 TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]") {
-  // Both are the same surfaces, with their short cut-off at 8 and at 32 cells.
+  // The same surfaces, whose short cut-off is at 8 and at 32 cells.
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 1.0 / 2, .short_cutoff = 8.0 / 64, .rms_slope = 0.1});
   double counted = 0, corrected = 0, exact = 0;
@@ -89,7 +89,7 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
     corrected += coarse.corrected_area_fraction;
     exact += fine.corrected_area_fraction;
   }
-  // The counted area is 10 % too large. Some 25 contacts of 10 to 50 cells leave the corrected one
+  // The counted area is 10 % too large. The corrected area of 25 contacts of 10 to 50 cells is
   // uncertain by their shapes on the grid: the correction must remove two thirds of the error.
   CHECK(counted > 1.05 * exact);
   CHECK(std::abs(corrected - exact) < (counted - exact) / 3);
@@ -99,7 +99,7 @@ TEST_CASE("Spots of a pressure that is spread have the bits of one process", "[s
   const Grid2D grid = GENERATE(Grid2D{64, 64, 1, 1}, Grid2D{96, 50, 1.5, 1}, Grid2D{101, 64, 1, 1},
                                Grid2D{16, 16, 1, 1});
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
-  // Few cells in contact, and so many that the largest spots wind through all rows (0.593
+  // Contact areas from few cells to so many that the largest spots wind through all rows (0.593
   // percolate).
   const double part = GENERATE(0.1, 0.6, 0.65);
   std::mt19937 engine(static_cast<unsigned>(grid.nx));

@@ -39,7 +39,7 @@ TEST_CASE("Densities of pressure and gap add up to the contact and to what is ou
         Approx(state.contact_area_fraction).epsilon(1e-12));
   CHECK(integral(found.gap_density, found.gap_width) ==
         Approx(1 - state.contact_area_fraction).epsilon(1e-12));
-  // A value lies within half a bin of the middle of its own, so does the mean of them.
+  // A value lies within half a bin of the middle of its bin, and so does the mean.
   CHECK(
       first_moment(found.contact_pressure, found.pressure_density, found.pressure_width) ==
       Approx(state.mean_pressure).margin(0.5 * found.pressure_width * state.contact_area_fraction));
@@ -50,7 +50,7 @@ TEST_CASE("Densities of pressure and gap add up to the contact and to what is ou
 }
 
 TEST_CASE("The pressures of a sphere are distributed as Hertz has it", "[distributions]") {
-  // p = p0 √(1 − r²/a²) makes P(p) dp = 2πr dr/A = 2πa²/(A p0²) p dp: it rises linearly from 0.
+  // With p = p0 √(1 − r²/a²), P(p) dp = 2πr dr/A = 2πa²/(A p0²) p dp: it rises linearly from 0.
   const Grid2D grid{256, 256, 1e-3, 1e-3};
   constexpr double radius = 1e-2;
   const Surface sphere = surface_of(grid, [&](double x, double y) {
@@ -61,8 +61,8 @@ TEST_CASE("The pressures of a sphere are distributed as Hertz has it", "[distrib
   const double contact_radius = std::cbrt(3 * state.force * radius / (4 * 1e9));
   const double peak = 1.5 * state.force / (std::numbers::pi * std::pow(contact_radius, 2));
   const ContactDistributions found = contact_distributions(state, grid, 5);
-  // Some 12 500 cells in contact, the edge of which is uncertain by a part of a cell: a hundredth
-  // of the density, of a bin that holds a tenth of them.
+  // About 12 500 cells are in contact, whose edge is uncertain by a part of a cell: a hundredth of
+  // the density in a bin that holds a tenth of them.
   for (std::size_t bin = 1; bin < 5; ++bin)
     CHECK(found.pressure_density[bin] ==
           Approx(2 * std::numbers::pi * std::pow(contact_radius / peak, 2) / grid.area() *
@@ -98,7 +98,7 @@ TEST_CASE("What is nowhere has no distribution", "[distributions]") {
   const ContactDistributions full = contact_distributions(state, grid, 4);
   CHECK(full.gap.empty());
   CHECK(integral(full.pressure_density, full.pressure_width) == Approx(1));
-  // All pressures are the largest one.
+  // All pressures are equal to the maximum.
   CHECK(full.pressure_density.back() == Approx(1 / full.pressure_width));
   CHECK_THROWS_AS(contact_distributions(state, grid, 0), InvalidInput);
   CHECK_THROWS_AS(contact_distributions(state, {8, 9, 1, 1}), InvalidInput);

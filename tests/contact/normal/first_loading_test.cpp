@@ -35,7 +35,7 @@ NormalContactOptions elastic(NormalContactOptions options) {
 
 Surface rough() { return rough_surface({64, 64, 1e-3, 1e-3}); }
 
-/// The largest elastic pressure of rough(), Pa.
+/// The maximum elastic pressure of rough(), Pa.
 double max_elastic_pressure(Boundary boundary) {
   return press(rough(), contact_modulus, at_pressure(pressure), elastic(contact(boundary, 1)))
       .contact_pressure.maxCoeff();
@@ -47,7 +47,7 @@ TEST_CASE("Below the hardness nothing flows, and the surface keeps its bits", "[
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Surface surface = rough();
   const double amplitude = GENERATE(0.0, 1.0) * 0.01 * rms_height(surface);
-  // An oscillation by a hundredth of the rms height raises the largest pressure by less than a
+  // An oscillation of a hundredth of the rms height raises the maximum pressure by less than a
   // fifth.
   const auto options = contact(boundary, 1.2 * max_elastic_pressure(boundary));
   const ResidualSurface residual =
@@ -73,8 +73,8 @@ TEST_CASE("A first loading that flows less and less ends in the elastic contact"
   const ResidualSurface residual = after_first_loading(surface, contact_modulus, pressure, options);
   REQUIRE(residual.converged());
   CHECK(residual.first_loading.yielded());
-  // The few cells at the limit give way by their own compliance, about a cell size times the
-  // pressure that they lose over E*.
+  // The few cells at the limit yield by their own compliance: about a cell size times the pressure
+  // that they lose, over E*.
   CHECK(residual.first_loading.max_plastic_depth <
         4 * step * largest / contact_modulus * surface.grid.dx());
   CHECK(residual.first_loading.mean_plastic_depth <
@@ -103,14 +103,15 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   const auto unloading =
       press(residual.surface, contact_modulus, at_pressure(pressure), elastic(options));
   REQUIRE(unloading.converged());
-  // e_c is a mean of gaps where there is contact: the energy, second order in the error of the
-  // pressure, is good to it, pressures to its root, 1e-6. Gaps follow the displacement.
+  // e_c is a mean of gaps over the contact. The energy is of second order in the error of the
+  // pressure and therefore accurate to e_c, pressures to its root, 1e-6. Gaps follow the
+  // displacement.
   CHECK(((unloading.contact_pressure - loaded.contact_pressure).abs().maxCoeff() <
          1e-4 * options.hardness));
   CHECK(((unloading.gap - loaded.gap).abs().maxCoeff() < 1e-6 * rms_height(surface)));
   CHECK(unloading.force == Approx(loaded.force).epsilon(1e-10));
   CHECK(unloading.mean_gap == Approx(loaded.mean_gap).epsilon(1e-7));
-  // The plane stays, and the highest point is lower.
+  // The plane stays in place and the highest point is lower.
   CHECK(unloading.indentation == Approx(loaded.indentation - (surface.heights.maxCoeff() -
                                                               residual.surface.heights.maxCoeff()))
                                      .epsilon(1e-6));
@@ -126,11 +127,11 @@ TEST_CASE("Reloading follows the unloading curve up to the first load", "[first_
     const ResidualSurface again =
         after_first_loading(first.surface, contact_modulus, share * pressure, options);
     REQUIRE(again.converged());
-    // At the load itself the cells at the limit are pressed to it within the solver's tolerance.
+    // At the same load the cells at the limit reach it again within the solver's tolerance.
     CHECK(again.first_loading.max_plastic_depth <=
           (share < 1 ? 0 : 1e-6) * first.first_loading.max_plastic_depth);
   }
-  // A higher load flows further.
+  // A higher load causes further flow.
   const ResidualSurface more =
       after_first_loading(first.surface, contact_modulus, 1.2 * pressure, options);
   CHECK(more.first_loading.max_plastic_depth > 1e-2 * first.first_loading.max_plastic_depth);
@@ -138,8 +139,7 @@ TEST_CASE("Reloading follows the unloading curve up to the first load", "[first_
 
 TEST_CASE("A first loading in steps is a first loading at once", "[first_loading]") {
   const Surface surface = rough();
-  const auto options =
-      contact(Boundary::periodic, 0.2 * max_elastic_pressure(Boundary::periodic));
+  const auto options = contact(Boundary::periodic, 0.2 * max_elastic_pressure(Boundary::periodic));
   const ResidualSurface at_once =
       after_first_loading(surface, contact_modulus, 2 * pressure, options);
   const ResidualSurface half = after_first_loading(surface, contact_modulus, pressure, options);
@@ -147,7 +147,7 @@ TEST_CASE("A first loading in steps is a first loading at once", "[first_loading
       after_first_loading(half.surface, contact_modulus, 2 * pressure, options);
   REQUIRE((at_once.converged() && half.converged() && then.converged()));
   const Field depth = surface.heights - at_once.surface.heights;
-  // Cells that flowed at half the load and no longer at the whole one make the difference.
+  // The difference is due to cells that flow at half the load but not at the whole load.
   CHECK(((at_once.surface.heights - then.surface.heights).abs().mean() < 1e-3 * depth.mean()));
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]")
   const auto options = contact(Boundary::periodic, 1.05 * pressure);
   CHECK_THROWS_WITH(after_first_loading(surface, contact_modulus, 1.06 * pressure, options),
                     Catch::Contains("hardness: 10.5 MPa must exceed the nominal pressure"));
-  // Nearly all of the area flows, and what is left open closes on a short way.
+  // Nearly all of the area flows, and the rest closes over a short distance.
   const double gap = press(surface, contact_modulus, at_pressure(pressure), options).mean_gap;
   CHECK_THROWS_WITH(after_first_loading(surface, contact_modulus, pressure, options, 0.5 * gap),
                     Catch::Contains("hardness: 10.5 MPa must exceed the largest mean pressure of "
@@ -199,20 +199,20 @@ namespace {
 /// A paraboloid loaded to `load` times the force at which its centre reaches the hardness, and the
 /// forces of its unloading curve.
 struct Unloading {
-  double force = 0, radius = 0, indentation = 0;  // at the first load; radius by K = 2E*a
-  std::vector<double> share, forces;              // of the indentation; N
+  double force = 0, radius = 0, indentation = 0;  // at the first load; radius from K = 2E*a
+  std::vector<double> share, forces;              // parts of the indentation; forces, N
   double hardness = 0;
 
   Unloading(Index points, double load) {
     const double side = 1e-3, body_radius = 1e-2;
     const Grid2D grid{points, points, side, side};
     const Surface surface = paraboloid_surface(grid, body_radius, off_grid_center(grid));
-    // The contact fills half of the side whatever the load, by Hertz or with the uniform pressure H
-    // = p0/∛load.
+    // At any load the contact fills half of the side, by Hertz or with the uniform pressure H =
+    // p0/∛load.
     const double contact_radius = 0.25 * side / std::max(1.0, std::sqrt(2.0 / 3 * std::cbrt(load)));
     const double hertz = 4 * contact_modulus * std::pow(contact_radius, 3) / (3 * body_radius);
     force = hertz;
-    // Hertz: p0 = 2E*a/(πR), and the force of first flow goes with p0³.
+    // Hertz: p0 = 2E*a/(πR), and the force at first flow is proportional to p0³.
     hardness = 2 * contact_modulus * contact_radius / (pi * body_radius) / std::cbrt(load);
     NormalContactOptions options = contact(Boundary::free, hardness);
     options.tolerance = 1e-9;
@@ -236,9 +236,9 @@ struct Unloading {
 
 TEST_CASE("A sphere unloads as the flattened sphere of its load and contact radius",
           "[first_loading]") {
-  // Johnson, section 6.4: Hertz with the curvature 1/R' = 3F/(4E*a³), hence δ = 3F/(4E*a). He takes
-  // the pressures of the first loading for Hertz's; the flatter they are, the less they press in
-  // the middle.
+  // Johnson, section 6.4: Hertz with the curvature 1/R' = 3F/(4E*a³), hence δ = 3F/(4E*a). He
+  // assumes Hertz's pressures for the first loading; the flatter they are, the shallower they press
+  // in the middle.
   struct Case {
     double load, tolerance;
   };
@@ -261,7 +261,8 @@ TEST_CASE("A sphere far beyond first flow unloads from a uniform pressure", "[fi
   const double a = std::sqrt(curve.force / (pi * curve.hardness));
   const double indentation = 2 * curve.hardness * a / contact_modulus;
   INFO(curve.radius / a << " " << curve.indentation / indentation);
-  // Cells at the perimeter and the rim that is still elastic: 2 % of 16 cells in the radius.
+  // Errors come from cells at the perimeter and from the rim that is still elastic: 2 % for 16
+  // cells in the radius.
   CHECK(curve.radius == Approx(a).epsilon(0.02));
   CHECK(curve.indentation == Approx(indentation).epsilon(0.02));
   for (std::size_t i = 0; i < curve.share.size(); ++i) {

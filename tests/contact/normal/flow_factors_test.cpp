@@ -21,8 +21,8 @@ namespace {
 
 constexpr double modulus = 1e9;
 
-/// Flow factor along an axis by a direct solve of the same equations, a cell of each connected part
-/// being held.
+/// Flow factor along an axis by a direct solve of the same equations, with the pressure of one cell
+/// of each connected part held.
 double direct_flow_factor(const Field& gap, const Grid2D& grid, bool along_x) {
   const double mean = gap.mean();
   const Field s = (gap > 1e-9 * mean).select((gap / mean).cube(), 0.0);
@@ -44,7 +44,7 @@ double direct_flow_factor(const Field& gap, const Grid2D& grid, bool along_x) {
         const Index i2 = x ? (i + 1) % grid.nx : i, j2 = x ? j : (j + 1) % grid.ny;
         const double a = s(i, j), b = s(i2, j2);
         if (!(a > 0 && b > 0)) continue;
-        // Resistances of two halves in series.
+        // The resistances of the two half cells are in series.
         const double length = x ? grid.dx() : grid.dy(), width = x ? grid.dy() : grid.dx();
         const double conductance = width / (0.5 * length / a + 0.5 * length / b);
         faces.push_back(
@@ -82,7 +82,7 @@ Field contact_gap(const Grid2D& grid, std::uint64_t seed, double pressure) {
   return (state.contact_pressure > 0).select(0, state.gap.max(0.0));
 }
 
-/// Open cells where there is a dot.
+/// Cells with a dot are open.
 Field drawn_gap(const std::vector<std::string>& rows) {
   Field gap(static_cast<Index>(rows.size()), static_cast<Index>(rows[0].size()));
   for (Index i = 0; i < gap.rows(); ++i)
@@ -107,12 +107,13 @@ TEST_CASE("A gap percolates along the periods that a way through it leads round"
       {{"####", "####", "####"}, false, false},
       {{"####", "....", "####"}, false, true},  // a channel along y
       {{"#.##", "#.##", "#.##"}, true, false},
-      {{"#..#", "#..#", "####"}, false, false},  // an island
+      {{"#..#", "#..#", "####"}, false, false},  // a part that spans no period
       {{".###", "####", "####"}, false, false},
-      {{"..##", "#..#", "##..", ".##."}, true, true},  // one channel round both periods at once
-      // Corners pass nothing.
+      {{"..##", "#..#", "##..", ".##."}, true, true},  // one channel that spans both periods at
+                                                       // once
+      // Corners do not conduct.
       {{".###", "#.##", "##.#", "###."}, false, false},
-      // Meets itself at the border along x, but goes round nothing.
+      // This part meets itself at the border along x but spans no period.
       {{".#.#", "...#", "####", "...#"}, false, false},
       {{".##", "###", "..."}, false, true},
       {{"...#", "##.#", ".#.."}, true, true},
@@ -131,8 +132,8 @@ TEST_CASE("A gap percolates along the periods that a way through it leads round"
 }
 
 TEST_CASE("Grooves conduct in parallel along them and in series across them", "[flow]") {
-  // Harmonic means of faces are exact in series. What remains is the square of the error of
-  // pressures, some times the tolerance.
+  // Harmonic means of faces are exact in series. The remaining error is the square of the error of
+  // pressures, a few times the tolerance.
   const Grid2D grid{96, 160, 3e-3, 1e-3};  // cells of 5 × 1
   Lcg random(7);
   Field gap(grid.nx, grid.ny);
@@ -147,7 +148,7 @@ TEST_CASE("Grooves conduct in parallel along them and in series across them", "[
   CHECK(flow.effective_gap ==
         Approx(mean * std::cbrt((flow.pressure_flow_factor_x + flow.pressure_flow_factor_y) / 2))
             .epsilon(1e-12));
-  // The other way round, the other way round.
+  // The transposed gap has the transposed factors.
   const FlowFactors turned =
       flow_factors(gap.transpose(), {grid.ny, grid.nx, grid.ly, grid.lx}, {.tolerance = 1e-11});
   CHECK(turned.pressure_flow_factor_y == Approx(flow.pressure_flow_factor_x).epsilon(1e-9));
@@ -168,7 +169,7 @@ TEST_CASE("Flow factors of rough contacts are those of a direct solve", "[flow]"
   REQUIRE(flow.converged());
   CHECK(flow.residual <= 1e-8);
   REQUIRE((flow.percolates_x || flow.percolates_y));
-  // The issue asks for 1e-6; the error is about the residual, of at most 1e-8.
+  // The error is about the residual, which is at most 1e-8.
   if (flow.percolates_x)
     CHECK(flow.pressure_flow_factor_x == Approx(direct_flow_factor(gap, grid, true)).epsilon(1e-7));
   if (flow.percolates_y)
@@ -177,9 +178,10 @@ TEST_CASE("Flow factors of rough contacts are those of a direct solve", "[flow]"
 }
 
 TEST_CASE("Gaps that differ by many decades cost no accuracy", "[flow]") {
-  // A smooth gap over 15 decades of its cube, as that between a contact and its surroundings, and
+  // A smooth gap whose cube spans 15 decades, like that between a contact and its surroundings, and
   // white noise over five decades with a third of the cells closed, which no contact has. Both take
-  // nearly so many iterations as a smooth conductor: that makes the preconditioner a multigrid.
+  // hardly more iterations than a smooth conductor, which shows that the preconditioner works as a
+  // multigrid.
   const Grid2D grid{97, 64, 1e-3, 1e-3};
   const std::uint64_t seed = GENERATE(1u, 2u, 3u);
   const bool smooth = GENERATE(true, false);
@@ -221,8 +223,8 @@ TEST_CASE("Isotropic roughness much lower than the gap lowers the flow by 3/2 of
           "[flow]") {
   // g = ⟨g⟩(1 + f), s = g³/⟨g⟩³ = 1 + 3f + 3f² + f³. To second order in f, with f̂ the part of f in
   // the wave q, φ_x = ⟨s⟩ − Σ |ŝ|² q_x²/q² = 1 + 3⟨f²⟩ − 9 Σ|f̂|² q_x²/q². The mean of both
-  // directions is 1 − (3/2)⟨f²⟩ whatever the spectrum. The next term is of third order, about f³;
-  // the cells change the second one by (πcell/wavelength)² or 1 % of itself.
+  // directions is 1 − (3/2)⟨f²⟩ for any spectrum. The next term is of third order, about f³; the
+  // cells change the second one by (πcell/wavelength)² or 1 % of itself.
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   Field f = rough_surface(grid, {.hurst = 0.8, .rolloff = 1, .cutoff = 32, .seed = 4}).heights;
   f -= f.mean();
@@ -248,14 +250,14 @@ TEST_CASE("Flow prefers no direction over many isotropic surfaces", "[flow]") {
     sum += ratio;
     square += ratio * ratio;
   }
-  // The logarithm of the ratio has the mean 0, within three of its standard errors.
+  // The logarithm of the ratio has the mean 0, within three standard errors.
   CHECK(std::abs(sum / seeds) < 3 * std::sqrt(square) / seeds);
 }
 
 TEST_CASE("Flow ends where 0.42 of the area touches", "[flow]") {
-  // Wang and Müser (2020): near 0.415. The least area at which a surface no longer percolates
-  // scatters by 0.045 where four roll-off wavelengths fit into the period, the mean of so many by
-  // 0.013; measured 0.421.
+  // Wang and Müser (2020): near 0.415. The minimum area at which a surface no longer percolates
+  // scatters by 0.045 if four roll-off wavelengths fit into the period, and the mean of this many
+  // by 0.013; measured 0.421.
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   constexpr int seeds = 12;
   double sum = 0, square = 0;
@@ -301,11 +303,11 @@ TEST_CASE("Bruggeman's factor of two gaps solves its quadratic", "[flow]") {
   const double half = 0.5 * (2 * part - 1) * (a - c);
   const double root = std::sqrt(half * half + a * c);
   const double expected = half > 0 ? half + root : a * c / (root - half);
-  // Half in half, the equation changes by b/c = 1e-8 of itself only while b doubles: eight digits
-  // of sixteen are left.
+  // For equal parts the equation changes by b/c = 1e-8 of itself while b doubles, which leaves
+  // eight of sixteen digits.
   const FlowFactors flow = flow_of(gap);
   CHECK(flow.bruggeman_flow_factor == Approx(expected).epsilon(1e-7));
-  // Half in half it is the geometric mean, exactly that of a checkerboard.
+  // For equal parts it is the geometric mean, as for a checkerboard.
   if (part == 0.5) CHECK(flow.bruggeman_flow_factor == Approx(std::sqrt(a * c)).epsilon(1e-7));
   gap.topRows(25) = 0;
   CHECK(std::isnan(flow_of(gap).bruggeman_flow_factor));
@@ -327,7 +329,7 @@ TEST_CASE("Flow factors do not depend on units, and cells under load are closed"
 }
 
 TEST_CASE("Flow factors have the same bits for every thread count", "[flow]") {
-  // Large enough for threads to share the loops.
+  // The field is large enough for threads to share the loops.
   const Field gap = (rough_surface({256, 203, 1e-3, 1e-3}).heights + 2e-6).max(0.0);
   const auto with_threads = [&](int threads) {
     parallel::set_threads(threads);

@@ -23,7 +23,8 @@ NormalContactOptions free_contact(double tolerance = 1e-12) {
   return options;
 }
 
-// Off the grid's points and lines of symmetry, as contacts usually are: by parts of a cell.
+// The summit lies off the grid's points and lines of symmetry by parts of a cell, as it usually
+// does.
 Surface paraboloid(Index n, double side, double radius, double off_x = 0.31, double off_y = 0.17) {
   const double cell = side / double(n), x0 = side / 2 + off_x * cell, y0 = side / 2 + off_y * cell;
   return surface_of({n, n, side, side}, [=](double x, double y) {
@@ -52,7 +53,7 @@ TEST_CASE("Love's and Cerruti's integrals equal sums over small parts of the cel
       sum.yy += area * eta * eta / (r * r * r);
       sum.xy += area * xi * eta / (r * r * r);
     }
-  // The midpoint rule with 200 parts is good to (1/200)²/24 times a few: 1e-5.
+  // The midpoint rule with 200 parts has an error of (1/200)²/24 times a few: 1e-5.
   const double scale = sum.inverse_distance;
   CHECK(exact.inverse_distance == Approx(sum.inverse_distance).epsilon(1e-5));
   CHECK(exact.xx == Approx(sum.xx).margin(1e-5 * scale));
@@ -66,8 +67,8 @@ TEST_CASE("Love's and Cerruti's integrals keep their digits at any distance", "[
   for (const double r : {31.0, 33.0, 100.0, 1e3, 1e5}) {
     const double x = r * c, y = r * s;
     const auto cell = cell_integrals(x, y, 1, 1);
-    // Taylor's series over a square of side 1, ∬f = f + ∇²f/24 + (f_xxxx + f_yyyy)/1920 +
-    // f_xxyy/576, of sixth order next.
+    // Taylor's series over a square of side 1: ∬f = f + ∇²f/24 + (f_xxxx + f_yyyy)/1920 +
+    // f_xxyy/576; the next term is of sixth order.
     const double fourth = (9 - 90 * c * c + 105 * std::pow(c, 4)) / 1920 +
                           (9 - 90 * s * s + 105 * std::pow(s, 4)) / 1920 +
                           (105 * c * c * s * s - 12) / 576;
@@ -125,7 +126,8 @@ TEST_CASE("A zero-padded convolution is the sum over all loaded cells, without i
 
 TEST_CASE("At ν = 0 the tangential compliance is twice decoupled, and equal to the normal one",
           "[half_space]") {
-  // One elastic body with ν = 0: G* = E*, c1 = 1/(πE*), c2 = 0, so that all three kernels coincide.
+  // For one elastic body with ν = 0, G* = E*, c1 = 1/(πE*) and c2 = 0, so that all three kernels
+  // coincide.
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Grid2D grid{24, 20, 1e-3, 1e-3};
   const Field traction = Field::Random(24, 20);
@@ -151,7 +153,8 @@ TEST_CASE(
   struct Errors {
     double force = 0, approach = 0, peak = 0, radius = 0;
   };
-  // Where the summit lies in its cell scatters the errors; their mean over a few places does not.
+  // The errors scatter with the position of the summit in its cell; their mean over a few positions
+  // does not.
   const std::array<std::array<double, 2>, 6> places{
       {{0.31, 0.17}, {0.04, 0.46}, {0.72, 0.61}, {0.55, 0.93}, {0.88, 0.28}, {0.19, 0.79}}};
   const auto errors = [&](Index n) {
@@ -180,14 +183,14 @@ TEST_CASE(
   INFO("force " << coarse.force << ' ' << fine.force << ", approach " << coarse.approach << ' '
                 << fine.approach << ", peak " << coarse.peak << ' ' << fine.peak << ", radius "
                 << coarse.radius << ' ' << fine.radius);
-  // Pressures constant over cells, met at their centres: second order inside; the edge, where p
-  // falls like a square root over one cell, adds the same order. Measured from 16 to 256 cells:
-  // 1.85, 1.88, 1.92, 1.95 for the force.
+  // Pressures are constant over cells and match the gap at their centres: second order inside. The
+  // edge, where p falls like a square root over one cell, adds the same order. Measured from 16 to
+  // 256 cells: 1.85, 1.88, 1.92, 1.95 for the force.
   CHECK(order(coarse.force, fine.force) == Approx(1.9).margin(0.15));
   CHECK(order(coarse.approach, fine.approach) == Approx(1.9).margin(0.15));
   CHECK(order(coarse.peak, fine.peak) > 1.8);
   CHECK(fine.force < 1e-4);
-  // Cells count whole, and those that the edge cuts carry load: an eighth of a cell too much on
+  // Cells count whole, and cells that the edge cuts carry load: an eighth of a cell too much on
   // each side.
   CHECK(order(coarse.radius, fine.radius) == Approx(1.0).margin(0.15));
   CHECK(fine.radius * contact_radius < 0.25 * side / 128);
@@ -205,7 +208,7 @@ TEST_CASE("Hertz: force, indentation and stiffness are one curve", "[normal]") {
             .epsilon(2e-3));
   const auto back = press(surface, contact_modulus, at_pressure(state.mean_pressure), options);
   CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
-  // K = 2E*a; the contact radius is known to half a cell in fifty.
+  // K = 2E*a; the contact radius is accurate to half a cell in fifty.
   const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
   CHECK(stiffness == Approx(2 * contact_modulus * std::sqrt(1e-2 * indentation)).epsilon(1e-2));
 }
@@ -225,12 +228,12 @@ TEST_CASE("A flat square punch is linear: its force is its stiffness times its i
     CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
     return value / (contact_modulus * side);
   };
-  // Collocation at cell centres converges at first order to the edge singularity: one Richardson
-  // step.
+  // Collocation at cell centres converges at first order, because of the edge singularity: one
+  // Richardson step.
   const double coarse = stiffness(32), fine = stiffness(64), extrapolated = 2 * fine - coarse;
   INFO(coarse << ' ' << fine << ' ' << extrapolated);
-  // π/(4πε0) times the capacity of a square plate, 0.36679 × 4πε0 × side: electrostatics has the
-  // same kernel.
+  // π/(4πε0) times the capacity of a square plate, 0.36679 × 4πε0 × side, because electrostatics
+  // has the same kernel.
   CHECK(extrapolated == Approx(0.36679 * pi).epsilon(1e-3));
 }
 
@@ -308,7 +311,7 @@ TEST_CASE("Saturated cells carry exactly the hardness, and forces balance", "[no
 }
 
 TEST_CASE("Hardness that most of the load meets: soft as a cushion, still a solution", "[normal]") {
-  // The set of free cells flutters here, and gradient projection has to finish.
+  // The set of free cells flutters here, so gradient projection must finish the solve.
   const double hardness = GENERATE(1.05e6, 1.3e6, 4e6, 1e7);
   const Surface surface = rough_surface({64, 64, 1e-3, 1e-3});
   NormalContactOptions options;
@@ -317,6 +320,6 @@ TEST_CASE("Hardness that most of the load meets: soft as a cushion, still a solu
   REQUIRE(state.converged());
   CHECK(state.contact_pressure.mean() == Approx(1e6).epsilon(1e-10));
   CHECK(state.contact_pressure.maxCoeff() == hardness);
-  // No cell carries more than its hardness: at least so much area is in contact.
+  // No cell carries more than its hardness, so at least this area is in contact.
   CHECK(state.contact_area_fraction >= 1e6 / hardness);
 }

@@ -11,8 +11,8 @@
 
 namespace salebra::test {
 
-// Love's displacement of an isolated half-space, by plain transforms of a field with as many empty
-// cells along each axis.
+// Love's displacement of an isolated half-space, by plain transforms of a field padded with as many
+// empty cells along each axis.
 inline Field free_displacement(const Field& pressure, const Grid2D& grid, double contact_modulus) {
   const Index nx = 2 * grid.nx, ny = 2 * grid.ny;
   RealFft2D<double> fft(nx, ny);
@@ -34,8 +34,7 @@ inline Field free_displacement(const Field& pressure, const Grid2D& grid, double
   return padded.topLeftCorner(grid.nx, grid.ny);
 }
 
-// e_c of a pressure field, found again from that field alone by transforms that share no code with
-// the solver's.
+// Computes e_c from the pressure field alone, by transforms that share no code with the solver's.
 inline double independent_residual(const Field& pressure, const Surface& surface,
                                    double contact_modulus, Boundary boundary = Boundary::periodic) {
   const Field displacement = boundary == Boundary::periodic

@@ -14,14 +14,14 @@ namespace salebra::test {
 
 struct MeasuredSurface {
   std::string name;
-  Surface surface;         // less its plane
-  double rms_slope = 0;    // of differences along both axes
-  bool undefined = false;  // points without a value, which lie on the mean plane here
+  Surface surface;         // without its mean plane
+  double rms_slope = 0;    // rms of differences along both axes
+  bool undefined = false;  // has points without a value, which lie on the mean plane here
 };
 
 struct MeasuredSurfaces {
   std::vector<MeasuredSurface> usable;
-  std::vector<std::string> unusable;  // file, and why
+  std::vector<std::string> unusable;  // files, and the reason for each
 };
 
 inline double rms_slope_of(const Surface& surface) {
@@ -34,7 +34,8 @@ inline double rms_slope_of(const Surface& surface) {
   return std::sqrt(along_x + along_y);
 }
 
-// Every file of a folder that is a surface; of larger ones the first `most` × `most` points.
+// Reads every file of a folder that is a surface; of larger surfaces the first `most` × `most`
+// points.
 inline MeasuredSurfaces measured_surfaces(const std::filesystem::path& folder, Index most) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::is_directory(folder))
@@ -50,7 +51,7 @@ inline MeasuredSurfaces measured_surfaces(const std::filesystem::path& folder, I
       try {
         surface = read_surface(file);
       } catch (const InvalidInput&) {
-        // Some files give no size.
+        // Some files do not state a size.
         ReadOptions options;
         options.size_x = options.size_y = 1e-5;
         surface = read_surface(file, options);
@@ -67,7 +68,7 @@ inline MeasuredSurfaces measured_surfaces(const std::filesystem::path& folder, I
     measured.undefined = measured.surface.undefined_points() > 0;
     measured.surface.heights = measured.surface.heights.isNaN().select(0, measured.surface.heights);
     measured.rms_slope = rms_slope_of(measured.surface);
-    // Three points lie on a plane, and a plane has no roughness to press on.
+    // Three points lie on a plane, which has no roughness to press on.
     const double largest = surface.heights.isNaN().select(0, surface.heights).abs().maxCoeff();
     if (measured.surface.heights.abs().maxCoeff() > 1e-12 * largest)
       found.usable.push_back(std::move(measured));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts and punches that iterate on the multilevel kernel, against those that iterate with
+// Compares contacts and punches that iterate on the multilevel kernel with those that iterate with
 // transforms.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -22,7 +22,7 @@ struct Solved {
   double area() const { return (pressure > 0).cast<double>().mean(); }
 };
 
-// On one grid of unit cells with E* = 1, from a start that the next coarser grid gives.
+// Solves on one grid of unit cells with E* = 1, from a start like that of the next coarser grid.
 Solved solve(const Surface& surface, Boundary boundary, const ScaledOperatingPoint& target,
              double tolerance, MultilevelShare share) {
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
@@ -37,8 +37,8 @@ Solved solve(const Surface& surface, Boundary boundary, const ScaledOperatingPoi
       here.pressure = Field::Constant(grid.nx, grid.ny, target.load_given() ? target.value : 0.01);
     } else {
       here.pressure = Field(grid.nx, grid.ny);
-      prolong({levels[1], coarse.pressure, coarse.gap, coarse.outcome.plane_height}, levels[0], boundary,
-              0.6 / cell_compliance(grid, 1), here.pressure.data());
+      prolong({levels[1], coarse.pressure, coarse.gap, coarse.outcome.plane_height}, levels[0],
+              boundary, 0.6 / cell_compliance(grid, 1), here.pressure.data());
     }
     ActiveSetLimits limits{k == 0 ? tolerance : 1e-3, 1000, k == 0};
     limits.multilevel_share = k == 0 ? share : 0;
@@ -96,14 +96,14 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     CHECK(multilevel.outcome.fft_count <= max_pairs);
     CHECK(exact.outcome.multilevel_count == 0);
     CHECK(exact.outcome.fft_count > max_pairs);
-    // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy
-    // by no more than some 1e-8, and in pressures by the root of that.
+    // e_c bounds the misfit of gaps under pressure. Two solutions to 1e-8 differ in energy by no
+    // more than about 1e-8, and in pressures by its root.
     const double difference = std::sqrt((multilevel.pressure - exact.pressure).square().sum() /
                                         exact.pressure.square().sum());
     CHECK(difference < 1e-3);
     CHECK(multilevel.pressure.mean() == Approx(exact.pressure.mean()).epsilon(1e-6));
     CHECK(std::abs(multilevel.area() - exact.area()) < 1e-3 * exact.area() + 2.0 / 65536);
-    // Float serves until e_c is 2e-6; from there to 1e-8 a refresh in double gains a factor of 20
+    // Float suffices until e_c is 2e-6; from there to 1e-8 a refresh in double gains a factor of 20
     // or more.
     CHECK(multilevel.outcome.exact_fft_count <= 3);
     ++contacts;
@@ -112,12 +112,12 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     transform_pairs += exact.outcome.fft_count;
   }
   // A refresh gains a factor of 20 to 30, so four or five lead from the e_c of a usual start, 0.05,
-  // to 1e-8; the first gap is one more. 5.6 pairs a contact are measured. One superfluous refresh
+  // to 1e-8; the first gap is one more. 5.6 pairs per contact are measured. One superfluous refresh
   // in each contact exceeds the limit.
   CHECK(multilevel_pairs <= 6 * contacts);
-  // A refresh comes as soon as the error of the multilevel kernel is what is left, so that no steps are lost:
-  // 0.94 applications for each pair of the transforms are measured, and 1.22 where refreshes wait
-  // for an estimate of 1e-4 of the last e_c.
+  // A refresh comes as soon as the error of the multilevel kernel dominates, so no steps are lost:
+  // 0.94 applications per pair of transforms are measured, and 1.22 if refreshes wait for an
+  // estimate of 1e-4 of the last e_c.
   CHECK(applications < 1.1 * transform_pairs);
 }
 
@@ -128,10 +128,10 @@ TEST_CASE(
     const Solved multilevel = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
     REQUIRE(multilevel.outcome.converged());
     CHECK(multilevel.outcome.exact_fft_count > 0);
-    // Three and four pairs are measured for 1e-3 and 1e-6. Where a refresh in double waits until
-    // e_c is 2e-6, 1e-3 takes seven.
+    // Three and four pairs are measured for 1e-3 and 1e-6. If a refresh in double waits until e_c
+    // is 2e-6, 1e-3 takes seven.
     if (tolerance > 1e-8) CHECK(multilevel.outcome.fft_count <= 5);
-    // Found again by another transform, whose rounding is far below.
+    // Recomputed by another transform, whose rounding is far smaller.
     auto compliance = normal_compliance<double>(surface.grid, 1, Boundary::periodic);
     Field gap(surface.grid.nx, surface.grid.ny);
     compliance.apply(multilevel.pressure.data(), gap.data());
@@ -144,8 +144,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Tiles that come into contact only after a refresh are on the multilevel kernel too") {
-  // A start far from the solution: all pressure is on one patch, and sinks the summits around it
-  // below the plane. The first tiles are those of the patch, and the contact is elsewhere.
+  // The start is far from the solution: all pressure is on one patch, and sinks the summits around
+  // it below the plane. The first tiles cover the patch, but the contact is elsewhere.
   const Surface surface = unit_cells(256, 256, 5);
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
@@ -161,8 +161,8 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the multilev
           solver.solve({ControlQuantity::indentation, depth * rms}, limits, p.data(), g.data());
       CHECK(outcome.converged());
       CHECK(outcome.multilevel_count > 0);
-      // It takes as many as from any start: seven are measured. With the tiles of the patch alone
-      // there are 28 and more, or no end.
+      // It takes as many pairs as from any start: seven are measured. With the tiles of the patch
+      // alone it takes 28 and more, or does not end.
       CHECK(outcome.fft_count <= 8);
     }
 }
@@ -174,7 +174,7 @@ TEST_CASE(
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const auto solved = [&](std::optional<double> expected, MultilevelShare share) {
-    // Few cells carry load at first: the gap of those that do is always kept.
+    // Few cells carry load at first; their gap is always stored.
     Solved found{Field::Zero(512, 512),
                  Field::Constant(512, 512, std::numeric_limits<double>::quiet_NaN()),
                  {}};
@@ -191,12 +191,13 @@ TEST_CASE(
     const Solved plain = solved({}, share);
     REQUIRE(plain.outcome.converged());
     Field exact(512, 512);
-    normal_compliance<double>(surface.grid,
-                              normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()),
-                              RowPartition(512))
+    normal_compliance<double>(
+        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()),
+        RowPartition(512))
         .apply(plain.pressure.data(), exact.data());
     exact -= surface.heights - heights.zero;
-    // Both are the same numbers by the same transform, but for what it reads of rows without load.
+    // Both compute the same numbers by the same transform, except that one does not read rows
+    // without load.
     CHECK((plain.gap - exact).abs().maxCoeff() < 1e-13 * rms);
     const double level = plain.outcome.plane_height;
     for (const double off : {0.0, 0.05, -1.0, 2.0}) {
@@ -205,7 +206,7 @@ TEST_CASE(
       CHECK(found.outcome.converged());
       CHECK((found.gap == plain.gap).all());
       CHECK((found.pressure == plain.pressure).all());
-      // A transform more finds the gap that was not kept.
+      // One more transform computes the gap that was not stored.
       CHECK(found.outcome.fft_count <= plain.outcome.fft_count + 1);
     }
   }
@@ -229,15 +230,16 @@ TEST_CASE(
       REQUIRE(multilevel.converged());
       CHECK(multilevel.fft_count <= 3);
       CHECK(exact.fft_count > 8);
-      // Both stop when no more than 1e-11 of the load is left to gain, in one step or in a round.
+      // Both stop when the possible gain is at most 1e-11 of the load, in one step or in one round.
       CHECK(multilevel.load == Approx(exact.load).epsilon(1e-10));
     }
 }
 
 TEST_CASE(
     "Where exact residuals in float gain no more, a punch leaves the multilevel kernel and ends") {
-  // Rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. Asked for less, each
-  // further round on the multilevel kernel gains as much as the one before. Without new residuals CG ends.
+  // The rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. If less is required,
+  // each further round on the multilevel kernel gains as much as the previous one; CG without new
+  // residuals ends.
   const Surface surface = unit_cells(512, 512, 9);
   const Solved contact = solve(surface, Boundary::periodic, pressed(0.1), 1e-8, 0.0);
   PunchLimits limits;
@@ -255,9 +257,9 @@ TEST_CASE(
     "Between exact residuals the multilevel kernel contracts the error of a punch as its spectral "
     "error "
     "says") {
-  // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by eps/(1 −
-  // eps) at least, and what is left to gain by its square. The metric of G differs from that of G~
-  // by a factor 1 ± eps, which is within the slack that the bound has for a contact.
+  // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by at least
+  // eps/(1 − eps), and the possible gain by its square. The metric of G differs from that of G~ by
+  // a factor 1 ± eps, which is within the slack of the bound for a contact.
   const Surface surface = unit_cells(512, 512, 10);
   for (const double load : {0.005, 0.02, 0.1}) {
     const Solved contact = solve(surface, Boundary::periodic, pressed(load), 1e-6, 0.0);
@@ -268,11 +270,12 @@ TEST_CASE(
     const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
     const auto multilevel = MultilevelKernel::make(
         surface.grid, surface.partition(),
-        normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()), 1, Boundary::periodic);
+        normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()), 1,
+        Boundary::periodic);
     REQUIRE(multilevel);
     const double contraction = std::pow(multilevel->error() / (1 - multilevel->error()), 2);
-    // A gain asked for that one round must reach, because what is left by the bound is below it;
-    // solved to 1e-4 within the round.
+    // The required gain is such that one round must reach it, because the bound of the possible
+    // gain is below it; the round solves to 1e-4.
     limits.relative_gain = 1.01 * contraction;
     limits.round_ends = 1e-8;
     limits.multilevel_share = 1.0;
@@ -281,7 +284,7 @@ TEST_CASE(
     CHECK(outcome.fft_count == 1);
     const double left = 1 - outcome.load / load_exact;
     CHECK(left < contraction);
-    // It is a multilevel kernel and not the exact operator.
+    // The operator is a multilevel kernel and not the exact one.
     CHECK(left > 1e-4 * contraction);
   }
 }

@@ -34,8 +34,8 @@ double residual_of(const NormalContactState& state, const Surface& surface) {
 
 TEST_CASE("Contact agrees with Polonsky and Keer's solver in cells, mean gap and energy",
           "[normal]") {
-  // Even, odd and prime grids, rectangles, cells that are not square, rough and smooth at the scale
-  // of a cell.
+  // Even, odd and prime grids, rectangles, cells that are not square, and surfaces that are rough
+  // and smooth on the scale of a cell.
   const auto [grid, roughness] = GENERATE(
       std::pair{Grid2D{96, 80, 1.2e-3, 0.8e-3}, RoughnessOfTest{}},
       std::pair{Grid2D{81, 81, 1e-3, 1e-3}, RoughnessOfTest{.hurst = 0.3, .cutoff = 2, .seed = 2}},
@@ -94,12 +94,12 @@ TEST_CASE("Pressure, force, mean gap and indentation lead to each other and back
       press(surface, contact_modulus, at_force(pressure * surface.grid.area()), options);
   for (const auto* state : {&first, &at_gap, &to_indentation, &back, &under_force}) {
     REQUIRE(state->converged());
-    // e_c is an energy: pressures follow to a part of its root, 3e-7.
+    // e_c is an energy, so the pressures agree to a part of its root, 3e-7.
     CHECK(state->mean_pressure == Approx(pressure).epsilon(1e-8));
     CHECK(state->mean_gap == Approx(first.mean_gap).epsilon(1e-8));
     CHECK(((state->contact_pressure > 0) == (first.contact_pressure > 0)).all());
   }
-  // What was asked for is met to rounding, whatever the residual.
+  // The prescribed quantity is met to rounding, whatever the residual.
   CHECK(at_gap.mean_gap == Approx(first.mean_gap).epsilon(1e-12));
   CHECK(to_indentation.indentation == Approx(first.indentation).epsilon(1e-12));
   CHECK(back.mean_pressure == Approx(at_gap.mean_pressure).epsilon(1e-12));
@@ -114,8 +114,8 @@ TEST_CASE("The mean height and a translation by whole cells change nothing", "[n
       press(surface, contact_modulus, at_pressure(pressure), tight(1e-14, precision));
   const auto same = [&](const NormalContactState& state) {
     REQUIRE(state.converged());
-    // Both are within 1e-14 in energy of one solution; with equal cells of contact the problem is
-    // linear and gaps follow to 1e-10.
+    // Both are within 1e-14 in energy of one solution; with the same contact cells the problem is
+    // linear, and gaps agree to 1e-10.
     CHECK(state.mean_gap == Approx(plain.mean_gap).epsilon(1e-10));
     CHECK(state.indentation == Approx(plain.indentation).epsilon(1e-10));
     CHECK(state.elastic_energy == Approx(plain.elastic_energy).epsilon(1e-10));
@@ -123,7 +123,7 @@ TEST_CASE("The mean height and a translation by whole cells change nothing", "[n
   };
   Surface lifted = surface;
   lifted.heights += 1000 * rms_height(surface);
-  // Heights lose three decimals to the mean: 1e-13 of h_rms.
+  // The mean takes three decimals from the heights: 1e-13 of h_rms.
   const auto high = press(lifted, contact_modulus, at_pressure(pressure), tight(1e-13, precision));
   same(high);
   CHECK(((high.contact_pressure > 0) == (plain.contact_pressure > 0)).all());
@@ -151,7 +151,7 @@ TEST_CASE("The contact has the same cells and pressures for one thread and for t
   parallel::set_threads(2);
   const auto two = press(surface, contact_modulus, at_pressure(3e6));
   parallel::set_threads(0);
-  // Reductions run over fixed slabs, so the bits are equal, not only the digits.
+  // Sums run over fixed slabs, so the bits are equal, not only the digits.
   CHECK((one.contact_pressure == two.contact_pressure).all());
   CHECK((one.gap == two.gap).all());
 }
@@ -166,7 +166,7 @@ TEST_CASE("Contact spreads to cells at rest within an iteration, not only at a c
   options.initial_pressure = &light.contact_pressure;
   const auto state = press(surface, contact_modulus, at_pressure(3e5), options);
   CHECK(state.converged());
-  CHECK(state.iterations < 50);  // counted: 15, and 135 where cells at rest do not wake
+  CHECK(state.iterations < 50);  // measured: 15, and 135 if quiet tiles do not become active again
 }
 
 TEST_CASE("A sinusoid closes completely at Westergaard's pressure", "[normal]") {
@@ -176,7 +176,7 @@ TEST_CASE("A sinusoid closes completely at Westergaard's pressure", "[normal]") 
   const Surface surface = surface_of({64, 16, wavelength, wavelength / 4}, [&](double x, double) {
     return amplitude * std::cos(2 * pi * x / wavelength);
   });
-  // Full contact is one Fourier mode: no discretisation error.
+  // Full contact is one Fourier mode and has no discretisation error.
   const auto closed = press(surface, contact_modulus, at_pressure(1.01 * full), tight());
   REQUIRE(closed.converged());
   CHECK(closed.contact_area_fraction == 1);
@@ -201,7 +201,7 @@ TEST_CASE("The contact strip of a sinusoid has Westergaard's width, to the neare
     const auto state = press(surface, contact_modulus, at_pressure(load * full), tight(1e-12));
     REQUIRE(state.converged());
     INFO("n " << n << " fraction " << state.contact_area_fraction << " exact " << exact);
-    // First order: cells of the edges count whole, one on each side.
+    // First order: cells at the edges count whole, one on each side.
     CHECK(std::abs(state.contact_area_fraction - exact) <= 2.0 / double(n));
   }
 }
@@ -227,8 +227,8 @@ TEST_CASE("The mean gap of a sinusoid converges to Westergaard's at second order
   const double coarse = error(64), fine = error(2048);
   INFO("errors " << coarse << ' ' << fine);
   CHECK(fine < 1e-5);
-  // Where the edge lies within its cell scatters the error; over five doublings and three loads the
-  // order shows (1.9).
+  // The error scatters with the position of the edge within its cell; five doublings and three
+  // loads show the order (1.9).
   CHECK(std::log2(coarse / fine) / 5 > 1.6);
 }
 
@@ -256,7 +256,7 @@ TEST_CASE("A punch solve that does not come to its end has no stiffness", "[norm
   options.boundary = boundary;
   const auto state = press(surface, contact_modulus, at_pressure(4e6), options);
   const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
-  // The set alone says the same, in the digits that its tolerance asks for.
+  // The set alone gives the same stiffness, to the digits of its tolerance.
   const auto punch =
       punch_stiffness(contact_set(state), surface.grid, contact_modulus, {.boundary = boundary});
   CHECK(punch.converged());
@@ -286,7 +286,7 @@ TEST_CASE("Plane and single-cell surfaces, and targets that no contact meets", "
   CHECK_THROWS_AS(press(surface, contact_modulus, at_pressure(0)), InvalidInput);
   CHECK_THROWS_AS(press(surface, contact_modulus, at_pressure(-1)), InvalidInput);
   CHECK_THROWS_AS(press(surface, contact_modulus, at_pressure(std::nan(""))), InvalidInput);
-  // Beyond the range of double every comparison with the result fails, and passes for agreement.
+  // Numbers beyond the range of double compare false, which must not pass for agreement.
   CHECK_THROWS_AS(press(surface, contact_modulus, at_pressure(1e300)), InvalidInput);
   Surface giant = surface;
   giant.heights *= 1e200;
@@ -317,7 +317,7 @@ TEST_CASE("An approach of full contact is named before any work", "[normal]") {
   for (const double indentation : {full, 2 * full})
     CHECK_THROWS_WITH(press(surface, contact_modulus, at_indentation(indentation)),
                       Catch::Contains("indentation") && Catch::Contains("full"));
-  // Just short of it there is a contact, nearly full.
+  // Just below full contact the contact is nearly full.
   const auto state = press(surface, contact_modulus, at_indentation(0.999999 * full));
   CHECK(state.converged());
   CHECK(state.contact_area_fraction > 0.99);
@@ -339,8 +339,9 @@ TEST_CASE("Whatever the limit of iterations, converged says the truth", "[normal
     CHECK(state.iterations <= limit);
     CHECK(state.mean_pressure == Approx(pressure).epsilon(1e-10));
     CHECK(held.mean_gap == Approx(full.mean_gap).epsilon(1e-10));
-    // The residual is not an estimate: it is what another transform finds in the pressures. With
-    // the approach given, gaps count from there and not from the least one, which can only add.
+    // The residual is not an estimate: another transform finds the same value from the pressures.
+    // At a given approach gaps count from there and not from the minimum gap, which can only add to
+    // the residual.
     CHECK(state.residual == Approx(residual_of(state, surface)).epsilon(1e-3));
     CHECK(held.residual > 0.999 * residual_of(held, surface));
     for (const auto* each : {&state, &held}) {
@@ -350,7 +351,7 @@ TEST_CASE("Whatever the limit of iterations, converged says the truth", "[normal
       unfinished += !each->converged();
     }
   }
-  CHECK(unfinished >= full.iterations);  // or the limit did nothing
+  CHECK(unfinished >= full.iterations);  // otherwise the limit had no effect
 }
 
 TEST_CASE("The progress callback stops a contact", "[normal]") {

@@ -37,9 +37,9 @@ inline Field half_space_displacement(const Field& pressure, const Grid2D& grid,
   return displacement;
 }
 
-// The constrained conjugate gradients of Polonsky and Keer (1999), as the paper states them:
-// steepest descent after each change of the contact set by overlap, no preconditioner, no levels.
-// Slow and simple: the second route to every result.
+// The constrained conjugate gradients of Polonsky and Keer (1999), as their paper states them:
+// steepest descent after each change of the contact set by overlap, no preconditioner, no coarser
+// grids. It is slow and simple, and serves as a second route to every result.
 inline PolonskyKeerResult polonsky_keer(const Surface& surface, double contact_modulus,
                                         double nominal_pressure, double tolerance,
                                         int max_iterations = 20000) {
@@ -66,7 +66,7 @@ inline PolonskyKeerResult polonsky_keer(const Surface& surface, double contact_m
     image -= (image * contact).sum() / contact.sum();
     const double step = (gap * direction).sum() / (image * direction).sum();
     p = (p - step * direction).max(0.0);
-    // Cells without pressure that overlap come into contact, and CG starts again.
+    // Cells without pressure that overlap come into contact, and CG restarts.
     const Field overlap = (p == 0 && gap < 0).cast<double>();
     restart = overlap.sum() > 0;
     p -= step * overlap * gap;

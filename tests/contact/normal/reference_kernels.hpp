@@ -7,12 +7,11 @@
 
 #include "contact/normal/tile_kernels.hpp"
 
-// The tile kernels in their plainest form, cell by cell: what tile_kernels.inl computes, without
-// its vectors, lanes and prefetches. The tests compare the fast kernels with these, and a reader
-// begins here.
+// The tile kernels in their plainest form, cell by cell, without the vectors, lanes and prefetches
+// of tile_kernels.inl. The tests compare the fast kernels with these; a reader should begin here.
 namespace salebra::detail::reference {
 
-// One cell of a tile: its place in a packed array, in the residual with its halo, and in its row.
+// One cell of a tile: its indices in a packed array, in the residual with its halo, and in its row.
 struct Cell {
   std::ptrdiff_t tile, packed, with_halo, column;
 };
@@ -29,7 +28,8 @@ void for_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t e
   }
 }
 
-// A quiet tile has no free and no loaded cell; it adds nothing to a sum over free or loaded cells.
+// A quiet tile has no free and no loaded cell, so it adds nothing to a sum over free or loaded
+// cells.
 template <class Real, class Body>
 void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const Body& body) {
@@ -39,7 +39,8 @@ void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrd
 }
 
 template <class Real>
-void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height) {
+void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+              double plane_height) {
   for_cells(a, begin, end, [&](const Cell& c) {
     a.r[c.with_halo] =
         a.quiet[c.tile] ? Real(0) : a.m[c.packed] * static_cast<Real>(a.g[c.packed] - plane_height);
@@ -110,9 +111,10 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
     const bool saturated = clipped >= a.bound;
     sums.outside += beyond * beyond;
     sums.clipped += std::abs(beyond);
-    // A held cell is wrong where its gap asks for a change: below the plane without load, above it
+    // A held cell is wrong if its gap requires a change: below the plane without load, or above it
     // at the bound.
-    const double wrong = saturated ? std::max(g - plane_height, 0.0) : std::max(plane_height - g, 0.0);
+    const double wrong =
+        saturated ? std::max(g - plane_height, 0.0) : std::max(plane_height - g, 0.0);
     sums.wrong += (1 - m) * wrong * wrong;
     if (saturated) {
       sums.saturated += 1;
@@ -128,14 +130,14 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
   return sums;
 }
 
-// A free cell stays free while its pressure is within its bounds; a held one becomes free where its
+// A free cell stays free while its pressure is within its bounds; a held cell becomes free if its
 // gap has the wrong sign.
 inline bool becomes_free(bool free, double p, double g, double plane_height, double bound) {
   if (free) return p >= 0 && p <= bound;
   return p > 0 ? g > plane_height : g < plane_height;
 }
 
-// Whether any cell of a tile lies below the plane: a quiet tile wakes then.
+// Whether any cell of a tile lies below the plane; a quiet tile then becomes active.
 template <class Real>
 bool any_below(const TileArrays<Real>& a, std::ptrdiff_t k, double plane_height) {
   bool below = false;
@@ -174,8 +176,8 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height,
-              const Truncation& correction) {
+void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+              double plane_height, const Truncation& correction) {
   const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   for (std::ptrdiff_t k = begin; k < end; ++k) {
     if (a.quiet[k] && shift == 0 && !any_below(a, k, plane_height)) continue;
@@ -185,7 +187,8 @@ void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
       const double corrected =
           p >= full_from ? a.bound : std::min(scale * std::max(p, 0.0) + shift, a.bound);
       const bool inside = corrected > 0 && corrected < a.bound;
-      a.m[c.packed] = inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], plane_height, a.bound);
+      a.m[c.packed] =
+          inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], plane_height, a.bound);
       a.z[c.packed] = static_cast<Real>(corrected - p);
       p = corrected;
     });

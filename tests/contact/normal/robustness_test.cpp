@@ -18,7 +18,7 @@ using namespace salebra::test;
 
 namespace {
 
-// bench/contact/robustness runs the whole set, 200 surfaces and finer grids.
+// bench/contact/robustness runs the whole set of 200 surfaces, and finer grids.
 void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic) {
   INFO(contact.name);
   NormalContactOptions options;
@@ -30,7 +30,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
     const auto sound = [&, tolerance = tolerance](const NormalContactState& state) {
       CHECK(state.converged());
       CHECK(state.residual < tolerance);
-      // Transforms of another kind round differently, by 1e-15 of the heights.
+      // A different kind of transform rounds differently, by 1e-15 of the heights.
       CHECK(independent_residual(state.contact_pressure, contact.surface, 1, boundary) <
             1.1 * tolerance);
     };
@@ -39,7 +39,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
     CHECK(state.contact_pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
     const double first_touch = contact.surface.heights.maxCoeff() - contact.surface.heights.mean();
     const bool periodic = boundary == Boundary::periodic;
-    // In full contact the gap tells the pressure no more.
+    // In full contact the pressure does not follow from the gap.
     if (periodic &&
         (state.mean_gap < 1e-6 * first_touch || state.mean_gap > (1 - 1e-9) * first_touch))
       continue;
@@ -47,12 +47,12 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
                           ? press(contact.surface, 1, at_mean_gap(state.mean_gap), options)
                           : press(contact.surface, 1, at_indentation(state.indentation), options);
     sound(back);
-    // e_c is an energy; pressures differ by its root.
+    // e_c is an energy, so pressures differ by its root.
     CHECK(back.mean_pressure == Approx(contact.pressure).epsilon(10 * std::sqrt(tolerance)));
   }
 }
 
-// A solver of one grid with lengths in cells, as press runs it on the finest level.
+// A solver on one grid with lengths in cells, as press uses it on the finest grid.
 struct SingleGrid {
   Surface surface = rough_surface({64, 64, 64, 64}, {.rms_slope = 0.1});
   double rms = rms_height(surface);
@@ -82,7 +82,7 @@ TEST_CASE("Punches, steps, single cells and full contact converge, by pressure a
 
 TEST_CASE("A contact is found by its mean gap where coarse grids have another mean height",
           "[normal]") {
-  // Coarse grids take the higher points alone. At the level of this plane they would be beyond full
+  // Coarse grids sample only the higher points. At the same plane height they would be beyond full
   // contact.
   const auto [lowered, least, most] =
       GENERATE(std::tuple{0.1, 0.99, 0.999}, std::tuple{1.0, 0.4, 0.6});
@@ -97,12 +97,12 @@ TEST_CASE("A contact is found by its mean gap where coarse grids have another me
   REQUIRE(state.converged());
   REQUIRE(state.contact_area_fraction > least);
   REQUIRE(state.contact_area_fraction < most);
-  // 3/4 of the cells are lowered, none of a coarse grid.
+  // 3/4 of the cells are lowered, but none of a coarse grid.
   REQUIRE(state.mean_gap < 0.75 * lowered * rms);
   const auto back = press(surface, 1, at_mean_gap(state.mean_gap), options);
   CHECK(back.converged());
   CHECK(independent_residual(back.contact_pressure, surface, 1) < 1.1 * options.tolerance);
-  // e_c is an energy; pressures differ by its root.
+  // e_c is an energy, so pressures differ by its root.
   CHECK(back.mean_pressure == Approx(pressure).epsilon(10 * std::sqrt(options.tolerance)));
 }
 
@@ -119,8 +119,8 @@ TEST_CASE("A single point and constant heights are in full contact under any pre
       CHECK(state.converged());
       CHECK(state.contact_area_fraction == 1);
       CHECK(state.contact_pressure.mean() == Approx(pressure).epsilon(1e-12));
-      // Uniform where the cell repeats; alone, a flat punch is pressed hardest at its edges. e_c is
-      // an energy: gaps are of the order of its root.
+      // The pressure is uniform if the cell repeats; an isolated flat punch is pressed hardest at
+      // its edges. e_c is an energy, so gaps are of the order of its root.
       CHECK(state.gap.abs().maxCoeff() < 10 * std::sqrt(options.tolerance) * pressure);
       if (boundary == Boundary::periodic || n == 1)
         CHECK((state.contact_pressure == pressure).all());
@@ -136,7 +136,7 @@ TEST_CASE("Measured surfaces converge, as cells that repeat and as isolated bodi
         check({name + ", pressure over E*·(rms slope) " + std::to_string(load), surface,
                load * slope},
               boundary);
-  // One is text without heights, one has no surface's shape.
+  // One file is text without heights, one has no shape of a surface.
   CHECK(std::count_if(measured.unusable.begin(), measured.unusable.end(), [](const auto& why) {
           return why.find("nonsense") != std::string::npos ||
                  why.find("wrong") != std::string::npos;
@@ -154,7 +154,7 @@ TEST_CASE("Where conjugate gradients stall, gradient projection finds the same c
   SingleGrid usual, stalled;
   const auto reference = usual.solve<double>();
   REQUIRE(reference.converged());
-  // Without patience the first iterations that do not halve e_c exhaust the other thresholds.
+  // Without patience, the first iterations that do not halve e_c use up the other thresholds.
   stalled.limits.patience = 0;
   const bool mixed = GENERATE(false, true);
   const auto outcome = mixed ? stalled.solve<float>() : stalled.solve<double>();
@@ -197,8 +197,8 @@ TEST_CASE("A contact that the fallback solves carries the load asked, on cells o
   Lcg random(7);
   int saturated = 0;
   for (int k = 0; k < 300; ++k) {
-    // Cells up to a million times as long as wide often need the fallback. Its first steps are of
-    // the size of the heights, and the loads are as much as 1e11 times smaller.
+    // Cells up to a million times as long as wide often need the fallback. Its first steps are as
+    // large as the heights, while the loads are up to 1e11 times smaller.
     const Index nx = 2 + k % 7, ny = 2 + k % 5;
     const double root = std::pow(10, -3 + 6 * random.uniform());
     const auto cells = [](Index count) { return static_cast<double>(count); };
@@ -226,7 +226,7 @@ TEST_CASE("A fallback that runs out of iterations says so", "[normal]") {
   const auto outcome = stalled.solve<double>();
   CHECK(outcome.termination == Termination::iteration_limit);
   CHECK(outcome.residual > stalled.limits.tolerance);
-  // Round-off leaves more than that, and more iterations would be of no use.
+  // Round-off leaves a larger residual, so more iterations would be of no use.
   stalled.limits.tolerance = 1e-30;
   stalled.limits.max_iterations = 100000;
   CHECK(stalled.solve<double>().termination == Termination::stalled);
@@ -241,13 +241,13 @@ TEST_CASE("A start near the solution saves iterations and gives the same contact
   CHECK(warm.converged());
   CHECK(warm.iterations < cold.iterations);
   CHECK(warm.mean_gap == Approx(cold.mean_gap).epsilon(1e-6));
-  // Its own solution meets the tolerance, and is iterated all the same: a start that is returned as
-  // it is would be an answer that nothing solved.
+  // Its own solution meets the tolerance and is iterated nevertheless: a start that is returned
+  // unchanged would be an answer that nothing solved.
   CHECK(warm.iterations >= 1);
   CHECK(warm.iterations <= 2);
   CHECK(warm.residual < options.tolerance);
   CHECK((warm.contact_pressure != cold.contact_pressure).any());
-  // The residual is an energy, of the order of the square of the error: 1e-10 leaves 1e-5.
+  // The residual is an energy of the order of the square of the error: 1e-10 leaves 1e-5.
   CHECK((warm.contact_pressure - cold.contact_pressure).abs().maxCoeff() <=
         1e-4 * cold.contact_pressure.maxCoeff());
   const Field wrong = Field::Zero(3, 3);
@@ -262,7 +262,8 @@ TEST_CASE("What contacts of equal grids share changes none of them", "[normal]")
     options.boundary = boundary;
     const auto once = [&] { return press(surface, 1e9, at_pressure(3e5), options); };
     const auto alone = once();
-    // In use by several threads at a time, in the way of other grids, and made anew after these.
+    // Several threads use the operators at the same time, other grids evict them from the cache,
+    // and they are made anew.
     std::array<NormalContactState, 4> states;
     std::vector<std::thread> threads;
     for (auto& state : states) threads.emplace_back([&] { state = once(); });

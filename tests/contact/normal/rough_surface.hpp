@@ -13,8 +13,8 @@
 
 namespace salebra::test {
 
-// A fixed congruential generator: these surfaces must be the same for ever, whatever becomes of the
-// generators library.
+// A fixed congruential generator: these surfaces must never change, even if the generators library
+// does.
 class Lcg {
  public:
   explicit Lcg(std::uint64_t seed) : state_(seed * 2 + 1) { uniform(); }
@@ -29,13 +29,13 @@ class Lcg {
 
 struct RoughnessOfTest {
   double hurst = 0.8;
-  double rolloff = 4;  // waves in a side
+  double rolloff = 4;  // roll-off: waves per side
   double cutoff = 8;   // shortest wavelength in cells
   double rms_slope = 0.1;
   std::uint64_t seed = 1;
 };
 
-// Filtered white noise on any grid: power q^(−2−2H) above the roll-off, constant below, nothing
+// Filtered white noise on any grid: power q^(−2−2H) above the roll-off, constant below it, nothing
 // above the cut-off.
 inline Surface rough_surface(const Grid2D& grid, const RoughnessOfTest& roughness = {}) {
   Surface surface{grid, Field(grid.nx, grid.ny), true, "test"};
@@ -71,7 +71,7 @@ inline double rms_height(const Surface& surface) {
   return std::sqrt((surface.heights - surface.heights.mean()).square().mean());
 }
 
-// Heights from a function of the position in metres.
+// Makes heights from a function of the position in metres.
 template <class Function>
 Surface surface_of(const Grid2D& grid, const Function& height) {
   Surface surface{grid, Field(grid.nx, grid.ny), true, "test"};

@@ -17,9 +17,9 @@
 #include "ranks_in_threads.hpp"
 #include "rough_surface.hpp"
 
-// One contact over several processes: every number has the bits of one process, since sums go by
-// blocks of rows and transforms by rows and columns that are the same everywhere. Hence no
-// tolerance is needed.
+// One contact is spread over several processes. Every number has the bits of a single process,
+// since sums run over blocks of rows, and transforms over rows and columns, that are the same
+// everywhere. Therefore no tolerance is needed.
 
 using namespace salebra;
 using salebra::testing::run_ranks;
@@ -62,7 +62,7 @@ void require_same(const NormalContactState& alone, const NormalContactState& tog
 
 using Press = std::function<NormalContactState(const Surface&)>;
 
-// Compares the same contact, and its stiffness, by so many processes.
+// Compares the same contact and its stiffness between one process and this many.
 void compare(const Surface& surface, const Press& press, const NormalContactOptions& options,
              int ranks) {
   const NormalContactState alone = press(surface);
@@ -172,7 +172,7 @@ TEST_CASE("The multilevel kernel over processes has the bits of one process", "[
   using namespace salebra::detail;
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   const int ranks = GENERATE(2, 3, 5, 8);
-  // Rows that begin a process on even and on odd rows of the coarser levels.
+  // Processes begin on even and on odd rows of the coarser levels.
   const Index nx = 320, ny = 256;
   const Surface surface = test::rough_surface({nx, ny, double(nx), double(ny)});
   const double highest = surface.heights.maxCoeff();
@@ -235,7 +235,7 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
           "[spread]") {
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   const int ranks = GENERATE(2, 3, 8);
-  // The smaller grid has no multilevel kernel: its stick solves are preconditioned by the stencil.
+  // The smaller grid has no multilevel kernel, so the stencil preconditions its stick solves.
   const Index n = GENERATE(96, 256);
   const Surface surface = test::rough_surface({n, n, double(n), double(n)});
   const Material material = Material::of_contact_modulus(1, 0.3);
@@ -243,8 +243,9 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
   options.contact.boundary = boundary;
   options.stick = true;
   const std::vector<double> pressures{1e-3, 4e-3};
-  // K and K_t of an isolated contact are solved on the cells that it spans, over processes on the
-  // whole grid: to the tolerance of 1e-11 of the gain for K, and of the square of 1e-3 for K_t.
+  // A single process solves K and K_t of an isolated contact on the cells that it spans, several
+  // processes on the whole grid: they agree to the tolerance of 1e-11 of the gain for K, and of the
+  // square of 1e-3 for K_t.
   const auto same = [&](double a, double b, double tolerance) {
     return boundary == Boundary::periodic ? same_bits(a, b) : std::abs(a - b) <= tolerance * a;
   };
@@ -270,10 +271,10 @@ TEST_CASE("A force curve of groups of processes has the bits of one process", "[
   const Material material = Material::of_contact_modulus(1, 0.3);
   SweepOptions options;
   options.stick = true;
-  // With five groups one has no load.
+  // Of five groups one has no load.
   const std::vector<double> pressures{1e-3, 2e-3, 4e-3, 8e-3};
   const ForceCurve alone = sweep_pressures(surface, material, pressures, options);
-  // How often each load was solved, and by each group at the most.
+  // Counts how often each load was solved, and by each group at most.
   std::array<std::atomic<int>, 4> solved{};
   std::vector<std::atomic<int>> loads(static_cast<std::size_t>(count));
   run_ranks(ranks, [&](const Communicator& all) {
@@ -282,7 +283,7 @@ TEST_CASE("A force curve of groups of processes has the bits of one process", "[
     own.on_state = [&](std::size_t k, const NormalContactState&) {
       if (!own.groups->own().is_root()) return;
       ++solved[k];
-      ++loads[static_cast<std::size_t>(own.groups->place())];
+      ++loads[static_cast<std::size_t>(own.groups->index())];
     };
     const ForceCurve together =
         sweep_pressures(spread(surface, own.groups->own()), material, pressures, own);
@@ -301,7 +302,8 @@ TEST_CASE("A force curve of groups of processes has the bits of one process", "[
 TEST_CASE("A sweep that its root stops ends in all processes, within a contact and a stiffness",
           "[spread]") {
   const int groups = GENERATE(1, 2);
-  // Reports of the first solve come from contacts, later ones from stiffnesses and the next loads.
+  // Progress reports of the first solve come from the contact, later ones from stiffnesses and the
+  // next loads.
   const int last = GENERATE(0, 1, 5, 20, 40, 60, 80);
   const Surface surface = test::rough_surface({96, 96, 96, 96});
   const Material material = Material::of_contact_modulus(1, 0.3);
@@ -377,7 +379,7 @@ TEST_CASE("A sweep that one process stops ends in all of them with the same load
   options.contact.on_progress = [&](const ProgressReport&) { return ++calls > 0; };
   const std::vector<double> pressures{1e-3, 2e-3, 4e-3};
   REQUIRE(sweep_pressures(surface, material, pressures, options).samples.size() == 3);
-  // The stops are within a contact, within each of the two stiffness solves, and between two loads;
+  // The stops lie within a contact, within each of the two stiffness solves, and between two loads;
   // the last call follows the last load.
   for (int stop = 1; stop < calls; stop += 3) {
     CAPTURE(stop, calls);

@@ -11,7 +11,7 @@ using namespace salebra::test;
 
 namespace {
 
-// Cells are 1 m and E* is 1 Pa: lengths in cells, pressures in E*.
+// Cells are 1 m wide and E* is 1 Pa, so lengths are in cells and pressures in E*.
 constexpr Index points = 128;
 
 Adhesion exponential(double work) {
@@ -19,7 +19,7 @@ Adhesion exponential(double work) {
 }
 
 /// Pastewka and Robbins' number, below which surfaces stick: E*h'ρ/(2w)·(h'²/(h''ρ))^{2/3}, with
-/// h'' the rms of half of the Laplacian [PNAS 111, 3298 (2014), Eq. (10), κ = 2, d = 4h'/h''].
+/// h'' the rms of half the Laplacian [PNAS 111, 3298 (2014), Eq. (10), κ = 2, d = 4h'/h''].
 double stickiness(const Surface& surface, const Adhesion& adhesion) {
   const Field& h = surface.heights;
   const Index n = h.rows();
@@ -50,10 +50,10 @@ Surface rough(double slope, std::uint64_t seed) {
 
 }  // namespace
 
-// Surfaces that do not stick have an area in proportion to the load, and none without; those that
-// stick keep theirs without a load. The number says where one becomes the other up to a factor of
-// some units: of this potential, whose tension has a tail, surfaces at 3 keep a third of the area and
-// at 9 a twentieth. Hence the sides that are held against it here are 37 and 0.9.
+// The area of surfaces that do not stick is proportional to the load and vanishes without load;
+// surfaces that stick keep an area without load. The number separates the two kinds only up to a
+// factor of a few: with this potential, whose tension has a tail, surfaces at 3 keep a third of the
+// area and surfaces at 9 a twentieth. Therefore the test uses 37 and 0.9.
 TEST_CASE("Surfaces stick on one side of Pastewka and Robbins' number and not on the other",
           "[adhesion]") {
   const Adhesion weak = exponential(0.05), strong = exponential(0.2);
@@ -72,7 +72,8 @@ TEST_CASE("Surfaces stick on one side of Pastewka and Robbins' number and not on
     CHECK(area_of(flat, strong, 0) > 0.9 * stuck);
     CHECK(stuck > 0.5);
   }
-  // Few spots scatter by a fifth each, hence the means; they are as proportional as without adhesion.
+  // The few spots scatter by a fifth each, so means are compared; they are as proportional as
+  // without adhesion.
   CHECK(loaded / half == Approx(dry_loaded / dry_half).epsilon(0.1));
   CHECK(without < 0.05 * loaded);
 }

@@ -20,7 +20,7 @@ struct Width {
   TileKernels<double> (*dual)();
 };
 
-// Each width that this machine runs.
+// The vector widths that this machine can run.
 std::vector<Width> widths() {
   std::vector<Width> found{{"baseline", baseline::table_float, baseline::table_double}};
 #ifdef SALEBRA_X86_KERNELS
@@ -34,11 +34,10 @@ std::vector<Width> widths() {
 
 constexpr std::ptrdiff_t rows = 9, ny = 53, tiles_per_row = 4;
 
-// Tiles of a few rows, the last of each narrower, with all kinds of cells: free and held, without
-// load, within bounds and beyond them. p and g have 25 bits, so that arithmetic in float would
-// show; r, t, w and the weights have so few that products and the sums of the stencil are exact,
-// whatever their order and whether or not operations are fused: every array must then be equal in
-// all bits.
+// Tiles of a few rows, of which the last is narrower, with all kinds of cells: free and held,
+// without load, within bounds and beyond them. p and g have 25 bits, so that arithmetic in float
+// would show. r, t, w and the weights have so few bits that products and the sums of the stencil
+// are exact in any order, fused or not: every array must be equal in all bits.
 template <class Real>
 struct Tiles {
   std::vector<Tile> tiles;
@@ -67,8 +66,8 @@ struct Tiles {
     row.assign(ny, 0);
     quiet.assign(tiles.size(), 0);
     for (Real& value : row) value = coarse();
-    // Symmetric about both axes, as InverseStencil's is: the widest kernels add opposite neighbours
-    // before they are weighted.
+    // Symmetric about both axes like InverseStencil: the widest kernels add opposite neighbours
+    // before they weight them.
     for (int i = 0; i <= halo; ++i)
       for (int j = 0; j <= halo; ++j) {
         const Real weight = static_cast<Real>(whole(16)) / 8;
@@ -78,12 +77,12 @@ struct Tiles {
                 weight;
       }
     const auto a = arrays();
-    // The halo, too, holds images of the residual.
+    // The halo also holds images of the residual.
     for (Real& value : r) value = coarse();
     for (std::size_t k = 0; k < tiles.size(); ++k) {
       const auto first = static_cast<std::ptrdiff_t>(k);
       quiet[k] = whole(3) == 0;
-      // Above the plane, so that some quiet tiles stay so.
+      // Gaps lie above the plane, so that some quiet tiles stay quiet.
       const bool apart = whole(1) == 0;
       const bool idle = whole(4) == 0;  // held and without load, but not yet quiet
       const bool held = whole(2) == 0;  // loaded, but without a free cell
@@ -124,7 +123,7 @@ struct Tiles {
             bound};
   }
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(tiles.size()); }
-  // The tiles [begin, end) of one row that has some.
+  // Returns the tiles [begin, end) of a row that has tiles.
   std::array<std::ptrdiff_t, 2> one_row() const {
     const auto same = [&](const Tile& tile) { return tile.row == tiles[tiles.size() / 2].row; };
     const auto first = std::find_if(tiles.begin(), tiles.end(), same);
@@ -136,9 +135,9 @@ struct Tiles {
   }
 };
 
-// A sum of n <= rows·ny = 477 terms, none above 16², taken in another order differs by less than
-// n·ε·Σ|term| = 477 · 1.1e-16 · 477 · 256 = 6e-9. A fault changes it by the term of a cell, of
-// which few are below 1e-3.
+// A sum of n <= rows·ny = 477 terms, none above 16², in another order differs by less than
+// n·ε·Σ|term| = 477 · 1.1e-16 · 477 · 256 = 6e-9. A fault changes it by the term of a cell, few of
+// which are below 1e-3.
 bool close(double a, double b) { return a == b || std::abs(a - b) <= 1e-8; }
 
 bool equal(const PreconditionSums& a, const PreconditionSums& b) {
@@ -167,7 +166,7 @@ template <class Real>
 void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   const TileKernels<Real> plain = reference::table<Real>();
   const double plane_height = 0.375, infinity = std::numeric_limits<double>::infinity();
-  // call(kernels, tiles) with the fast and with the plain kernels, from the same tiles.
+  // Runs call(kernels, tiles) with the fast and with the plain kernels on the same tiles.
   const auto both = [&](const char* kernel, const auto& call) {
     INFO(kernel);
     Tiles<Real> one(seed, bound), other(seed, bound);
@@ -203,8 +202,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return equal(f.change_set(a.arrays(), 0, a.count(), plane_height),
                  s.change_set(b.arrays(), 0, b.count(), plane_height));
   });
-  // Scaled only, shifted, and scaled with the cells left alone that are at their bound, or beyond
-  // half of it.
+  // Corrections that only scale, that shift, and that scale but leave cells unchanged at their
+  // bound, or beyond half of it.
   struct Correction {
     double scale, shift, full_from;
   };
@@ -212,8 +211,10 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
        {Correction{1.25, 0, std::numeric_limits<double>::infinity()},
         Correction{1.25, 0.125, std::numeric_limits<double>::infinity()}, Correction{0.75, 0, 0.5}})
     both("truncate", [&](auto& f, auto& a, auto& s, auto& b) {
-      f.truncate(a.arrays(), 0, a.count(), plane_height, {by.scale, by.shift, by.full_from * a.bound});
-      s.truncate(b.arrays(), 0, b.count(), plane_height, {by.scale, by.shift, by.full_from * b.bound});
+      f.truncate(a.arrays(), 0, a.count(), plane_height,
+                 {by.scale, by.shift, by.full_from * a.bound});
+      s.truncate(b.arrays(), 0, b.count(), plane_height,
+                 {by.scale, by.shift, by.full_from * b.bound});
       return true;
     });
   both("spread_change", [&](auto& f, auto& a, auto& s, auto& b) {
@@ -227,14 +228,14 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return equal(f.add_displacement(a.arrays(), begin, end, a.row.data()),
                  s.add_displacement(b.arrays(), begin, end, b.row.data()));
   });
-  // Any 53 numbers will do as heights; p as it is: within bounds and beyond. Read everywhere or on
-  // some tiles; all gaps kept, or near ones.
+  // Any 53 numbers serve as heights; p is used as it is, within bounds and beyond. It is read
+  // everywhere or on some tiles; all gaps are stored, or only near ones.
   std::array<unsigned char, tiles_per_row> some{};
   some[0] = some[tiles_per_row - 1] = 1;
   for (const unsigned char* in_use : std::array<const unsigned char*, 2>{nullptr, some.data()})
     for (const double kept_below : {infinity, plane_height + 0.5}) {
       const auto row_of = [&](auto& fields, const std::vector<double>& heights, double* nearest) {
-        return GapRow{heights.data(), 0.5,   fields.p.data(), in_use,          ny,
+        return GapRow{heights.data(), 0.5,          fields.p.data(), in_use,          ny,
                       bound,          plane_height, kept_below,      fields.g.data(), nearest};
       };
       both("gap", [&](auto& f, auto& a, auto& s, auto& b) {

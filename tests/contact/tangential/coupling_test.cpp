@@ -39,22 +39,23 @@ CoupledContactOptions free_boundary(double friction, double scale) {
   return options;
 }
 
-// A body made to touch without motion, in increments of equal width of the contact's rim.
+// Brings a body into contact without tangential motion, in equal increments of the contact radius.
 CoupledContact pressed(const Surface& surface, const Material& material, double friction,
                        double indentation, int increments) {
   CoupledContact contact(surface, material, free_boundary(friction, indentation));
-  const double apex = surface.heights.maxCoeff();  // of the highest cell, below the true apex
+  const double apex = surface.heights.maxCoeff();  // height of the highest cell, below the true
+                                                   // apex
   for (int k = 1; k <= increments; ++k)
     contact.advance(indentation * std::pow(static_cast<double>(k) / increments, 2) + apex);
   return contact;
 }
 
-// Mossakovskii's bonded punch: its line load is g(t) = E*δ cos(θ ln((a + t)/(a − t)))/√(1 − β²), θ
+// Mossakovskii's bonded punch has the line load g(t) = E*δ cos(θ ln((a + t)/(a − t)))/√(1 − β²), θ
 // = artanh(β)/π, which gives F = 2E*aδ artanh(β)/β. A paraboloid that grows its contact without
-// slip is a succession of such punches (Mossakovskii 1963, Spence 1968): with U = (2/π)∫_0^a
-// g/(E*δ)/√(r² − t²)dt outside the punch (tractions add nothing there, by symmetry), r²/2R = ∫_0^r
-// (1 − U(r/a)) dδ(a) has the solution δ = a²/(4RI), I = ½ − (2/π)∫_0^1 g(x)J(x)dx, J = ½[asin x/x³
-// − √(1−x²)/x²].
+// slip is a succession of such punches (Mossakovskii 1963, Spence 1968). With U = (2/π)∫_0^a
+// g/(E*δ)/√(r² − t²)dt outside the punch, where tractions add nothing by symmetry, r²/2R = ∫_0^r (1
+// − U(r/a)) dδ(a) has the solution δ = a²/(4RI), I = ½ − (2/π)∫_0^1 g(x)J(x)dx, J = ½[asin x/x³ −
+// √(1−x²)/x²].
 double bonded_over_hertz_at_indentation(double beta) {
   const double theta = std::atanh(beta) / pi;
   double sum = 0;
@@ -139,8 +140,8 @@ TEST_CASE("The free kernel is the integral of the point solution over a cell", "
   }
   CHECK(std::abs(cell_gradient_integral(0, 1e-5, dx, dy)) < 1e-20);
 
-  // One loaded cell: a point force from afar, with Johnson's sign: the surface sinks in front of a
-  // tangential load.
+  // Far from one loaded cell the field is that of a point force, with Johnson's sign: the surface
+  // sinks in front of a tangential load.
   const Grid2D grid{40, 30, 40 * dx, 30 * dy};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.2);
   NormalTangentialCoupling coupling(grid, coupling_constant(material), Boundary::free);
@@ -169,8 +170,8 @@ TEST_CASE("A bonded flat punch is stiffer than a smooth one by artanh(beta)/beta
     return bonded.normal_force() / smooth.normal_force() / (std::atanh(beta) / beta) - 1;
   };
   const double coarse = ratio(24), fine = ratio(48);
-  // The singular edge oscillates within a distance that no grid resolves; with the grid it goes
-  // away all the same.
+  // The singular edge oscillates within a distance that no grid resolves; the error falls with the
+  // cell size all the same.
   CHECK(std::abs(fine) < 0.01);
   CHECK(std::abs(fine) < 0.7 * std::abs(coarse));
 }
@@ -185,8 +186,8 @@ TEST_CASE("A paraboloid that does not slip is Spence's", "[coupling]") {
     const Surface surface = paraboloid_surface(grid, radius, off_grid_center(grid));
     const CoupledContact bonded = pressed(surface, material, infinite, indentation, increments);
     REQUIRE(bonded.termination() == Termination::converged);
-    // The surface of the softer body is drawn inwards (A wave of pressure …); what holds it are
-    // tractions outwards.
+    // The surface of the softer body is drawn inwards (see the test case "A wave of pressure …"),
+    // and tractions outwards hold it.
     const Field& traction = bonded.sliding().traction().x;
     double moment = 0;
     for (Index ix = 0; ix < n; ++ix)
@@ -240,8 +241,8 @@ TEST_CASE("On any path of a coupled contact what is put in is stored or lost", "
     const double put_in = contact.sliding().work() + contact.normal_work() - contact.gap_work();
     // The sweeps end at 1e-6 of the pressures.
     CHECK(contact.stored_energy() + contact.sliding().loss().sum() == Approx(put_in).epsilon(1e-5));
-    // A part of it is the energy of the tractions by themselves: with the displacements that they
-    // alone make.
+    // A part of it is the energy of the tractions with the displacements that only these tractions
+    // cause.
     const TangentialField& traction = contact.sliding().traction();
     const TangentialField own = alone.displacement(everywhere, traction, everywhere);
     CHECK(contact.sliding().stored_energy() ==
@@ -285,7 +286,7 @@ TEST_CASE("Sweeps that are cut short say so, and bad input of a coupled contact 
   CoupledContact contact(surface, material, options);
   CHECK_FALSE(contact.advance(1e-5).converged());
   CHECK(contact.termination() > Termination::converged);
-  // Sweeps that agree on what a solve has not finished do not make it converged.
+  // Sweeps that agree are not converged if a solve within them is not finished.
   CoupledContactOptions hasty = free_boundary(infinite, 1e-6);
   hasty.tolerance = 0.1;
   hasty.sliding.stick.max_iterations = 1;

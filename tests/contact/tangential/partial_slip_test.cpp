@@ -18,7 +18,7 @@ using std::numbers::pi;
 constexpr double contact_modulus = 2e9;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Hertz's pressure about the middle of the grid, shifted by (0.31, 0.17) of a cell.
+// Hertz's pressure about a point (0.31, 0.17) of a cell off the middle of the grid.
 Field hertz_pressure(const Grid2D& grid, double radius, double peak) {
   Field pressure(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -64,8 +64,8 @@ Solution solve(const Field& limit, const Grid2D& grid, const Material& material,
 }  // namespace
 
 TEST_CASE("A sphere that is pushed sideways is Cattaneo's and Mindlin's", "[slip]") {
-  // With tractions along the motion alone the solution is exact at every Poisson's ratio: F_x =
-  // μF[1 − (1 − q)^{3/2}], q = G*x/(μE*δ), and the cells within a√(1 − q) stick.
+  // With tractions only along the motion the solution is exact at every Poisson's ratio: F_x = μF[1
+  // − (1 − q)^{3/2}], q = G*x/(μE*δ), and the cells within a√(1 − q) stick.
   const double poisson = GENERATE(0.0, 0.3, 0.5), q = GENERATE(0.3, 0.9);
   const double radius = 0.35e-3, indentation = 1.5e-5, friction = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
@@ -90,7 +90,7 @@ TEST_CASE("A sphere that is pushed sideways is Cattaneo's and Mindlin's", "[slip
                  std::sqrt(stuck * grid.cell_area() / pi / (1 - q)) / radius - 1};
   };
   const Error coarse = error(32), fine = error(128);
-  // Measured at 128²: 1e-6 to 5e-5, and 0.3 to 0.9 % of the stick radius: a third of a cell.
+  // Measured at 128²: 1e-6 to 5e-5, and 0.3 to 0.9 % of the stick radius, a third of a cell.
   CHECK(std::abs(fine.force) < 1e-4);
   CHECK(std::abs(fine.force) < std::abs(coarse.force) / 8);
   CHECK(std::abs(fine.stick_radius) < 0.012);
@@ -98,8 +98,8 @@ TEST_CASE("A sphere that is pushed sideways is Cattaneo's and Mindlin's", "[slip
 }
 
 TEST_CASE("Poisson's ratio turns the direction of slip, and hardly changes the force", "[slip]") {
-  // Cattaneo and Mindlin let all points slip along the force. At ν > 0 that is not the direction of
-  // their displacement.
+  // Cattaneo and Mindlin assume that all points slip along the force. At ν > 0 their displacement
+  // has another direction.
   const Grid2D grid{64, 64, 1e-3, 1e-3};
   const double radius = 0.35e-3, peak = 3e7, friction = 0.4, q = 0.9;
   const Field limit = friction * hertz_pressure(grid, radius, peak);
@@ -134,7 +134,7 @@ TEST_CASE("Partial slip on islands obeys Coulomb's law in every cell", "[slip]")
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const Field limit = island_pressure(grid, 8e7);
   const ContactSet contact = limit > 0;
-  // History: cells do not start from one displacement.
+  // With a history, cells do not start from a common displacement.
   TangentialField displacement = uniform(grid, 1e-6, hold_lateral ? 4e-7 : 0);
   for (Index ix = 0; ix < grid.nx; ++ix) displacement.x.row(ix) += 1e-8 * static_cast<double>(ix);
   const double scale = 1e-6, tolerance = 1e-9;
@@ -147,8 +147,7 @@ TEST_CASE("Partial slip on islands obeys Coulomb's law in every cell", "[slip]")
   CHECK(report.slipping > 50);
   CHECK(contact.count() - report.slipping > 50);
   const TangentialField moved = solver.displacement(contact, traction, contact);
-  // The unit is the scale: the solver bounds the rms of what is here checked in each cell of some
-  // 700.
+  // The solver bounds the rms in units of the scale; this test checks each of some 700 cells.
   const double close = 100 * tolerance * scale;
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy) {
@@ -181,8 +180,8 @@ TEST_CASE("Without a limit it is the stick solve, and far beyond it the whole co
   CHECK((free.traction.x - stuck.x).abs().maxCoeff() < 1e-7 * stuck.x.abs().maxCoeff());
   CHECK((free.traction.y - stuck.y).abs().maxCoeff() < 1e-7 * stuck.x.abs().maxCoeff());
 
-  // Motion along (4, 3)/5, a hundred times what would stick: the tractions point along it as
-  // nearly.
+  // Motion along (4, 3)/5, a hundred times larger than the stick limit, so that tractions point
+  // nearly along it.
   const Solution sliding =
       solve(pressure, grid, material, uniform(grid, 4e-3, 3e-3), 1e-5, options);
   REQUIRE(sliding.report.converged());
@@ -204,7 +203,8 @@ TEST_CASE("The fallback finds the same tractions, and an unfinished solve says s
   for (const Index cell : points.cell) limits.push_back(limit.data()[cell]);
   for (const Field* component : {&displacement.x, &displacement.y})
     for (const Index cell : points.cell) targets.push_back(component->data()[cell]);
-  // In any units: float has seven digits, and displacements of 1e-50 m none.
+  // The result must not depend on the units: float has seven digits, but no number as small as
+  // 1e-50.
   for (const double unit : {1.0, 1e-50}) {
     std::vector<double> shears(targets), exact(targets.size()), loose(targets.size());
     for (double& shear : shears) shear *= unit;
@@ -243,7 +243,7 @@ TEST_CASE("Cells without a limit only tell where the others take them", "[slip]"
   const StickOptions options{.tolerance = 1e-9};
   detail::TangentialWorkspace workspace(grid, material, options);
   const Field limit = island_pressure(grid, 8e7);
-  // Every third column is read off too.
+  // Every third column is read too.
   ContactSet wanted = limit > 0;
   for (Index iy = 0; iy < grid.ny; iy += 3) wanted.col(iy) = true;
   detail::ContactSystem& system = workspace.system_for(wanted);
@@ -270,7 +270,7 @@ TEST_CASE("Cells without a limit only tell where the others take them", "[slip]"
   system.response().apply(points, tractions.data(), points, displacements.data());
   const std::vector<double> limits = detail::values_at(limit, points);
   // Newton steps of both end anywhere within the tolerance of 1e-15 m, which is 1e-9 of the
-  // tractions' displacement and some 1e-7 of a single traction.
+  // tractions' displacement and about 1e-7 of a single traction.
   for (std::size_t i = 0; i < targets.size(); ++i) {
     CHECK(std::abs(tractions[i] - expected[i]) < 1e-6 * limit.maxCoeff());
     if (limits[i % points.cell.size()] > 0) continue;
@@ -278,8 +278,8 @@ TEST_CASE("Cells without a limit only tell where the others take them", "[slip]"
     CHECK(std::abs(targets[i] - displacements[i] - slip[i]) < 20 * options.tolerance * scale);
   }
 
-  // A response that is known is a start and no more: of the solution, or of tractions whose
-  // displacement is wrong by a tenth, says so, and seems to be what is wanted.
+  // A known response is only a start. The second one is wrong by a tenth, states this error, and
+  // looks like the solution.
   std::vector<double> start = tractions;
   for (double& value : start) value *= 0.9;
   for (const detail::KnownResponse& known : {detail::KnownResponse{tractions, displacements, 0},
@@ -294,8 +294,8 @@ TEST_CASE("Cells without a limit only tell where the others take them", "[slip]"
 }
 
 TEST_CASE("The residual of a partial-slip solve is in units of the scale", "[slip]") {
-  // Without tractions every cell that sticks misses its whole displacement, of length 5e-9 m: 1e-3
-  // of the scale. That is within the tolerance, so that nothing is solved.
+  // Without tractions every cell that sticks misses its whole displacement, of length 5e-9 m, which
+  // is 1e-3 of the scale. This is within the tolerance, so nothing is solved.
   const Grid2D grid{16, 16, 1e-3, 1e-3};
   const Field pressure = hertz_pressure(grid, 3e-4, 1e6);
   PartialSlipSolver solver(grid, Material::of_contact_modulus(contact_modulus, 0.3),

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Cells whose centres lie in an ellipse about the middle of the grid, shifted by (0.31, 0.17) of a
-// cell: a centre on the grid makes the error of the area jump with n.
+// Cells whose centres lie in an ellipse about a point (0.31, 0.17) of a cell off the middle of the
+// grid; with its centre on the grid the error of the area would jump with n.
 ContactSet ellipse(const Grid2D& grid, double semi_axis_x, double semi_axis_y) {
   ContactSet contact(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -43,7 +43,7 @@ ContactSet islands(const Grid2D& grid) {
 
 // Mindlin (1949): the tractions of a stuck ellipse are F_x/(2πab√(1 − x²/a² − y²/b²)). In Fourier
 // space their displacement is u_x = (F_x/8π) ∫_0^{2π} [Σ1/G − Σ(ν/G) cos²φ]/√(a²cos²φ + b²sin²φ)
-// dφ, here by the complete elliptic integrals. a is the semi-axis along the motion.
+// dφ, here by complete elliptic integrals. a is the semi-axis along the motion.
 double ellipse_stiffness(double a, double b, double inverse_shear, double poisson_over_shear) {
   if (a == b) return 8 * a / (2 * inverse_shear - poisson_over_shear);
   const double longer = std::max(a, b), shorter = std::min(a, b);
@@ -74,12 +74,12 @@ TEST_CASE("A stuck circular contact has K_t = 2G*a at any Poisson's ratio", "[st
     const StickStiffness k =
         stick_stiffness(ellipse(grid, radius, radius), grid, material, free_boundary());
     REQUIRE(k.converged());
-    CHECK(k.yy == Approx(k.xx).epsilon(2e-3));  // the cells' outline is not a circle
+    CHECK(k.yy == Approx(k.xx).epsilon(2e-3));  // the outline of the cells is not a circle
     CHECK(std::abs(k.xy) < 1e-3 * k.xx);
     return std::abs((k.xx + k.yy) / 2 / (2 * material.tangential_modulus * radius) - 1);
   };
-  // The edge is resolved to a cell: first order. Two doublings, since the area of the cells jumps
-  // about that of the circle.
+  // The edge is resolved to a cell: first order. Two doublings are used, since the area of the
+  // cells scatters around that of the circle.
   const double coarse = error(32), fine = error(128);
   CHECK(fine < 4e-3);
   CHECK(std::log2(coarse / fine) / 2 == Approx(1.0).margin(0.3));
@@ -101,7 +101,7 @@ TEST_CASE("Elliptic contacts follow Mindlin's elliptic integrals", "[stick]") {
   const double exact_normal = ellipse_stiffness(a, b, 2 / contact_modulus, 0);
   CHECK(k.xx == Approx(exact_x).epsilon(0.01));
   CHECK(k.yy == Approx(exact_y).epsilon(0.01));
-  // The resolution of the edge drops out of the ratio to the punch.
+  // The ratio to the punch does not depend on the resolution of the edge.
   CHECK(k.xx / punch.normal_stiffness == Approx(exact_x / exact_normal).epsilon(1e-3));
   CHECK(k.yy / punch.normal_stiffness == Approx(exact_y / exact_normal).epsilon(1e-3));
 }
@@ -123,7 +123,7 @@ TEST_CASE("At zero Poisson's ratio K_t = (G*/E*)K for every contact set", "[stic
 }
 
 TEST_CASE("Strips show the limits of the anisotropy, (1 - nu/2)/(1 - nu) and 1 - nu/2", "[stick]") {
-  // On strips along y every mode has q along x: the ratios hold for the discrete problem, too.
+  // On strips along y every mode has q along x, so the ratios hold for the discrete problem too.
   const double poisson = GENERATE(0.3, 0.5, -0.4);
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const Grid2D grid{60, 16, 1e-3, 0.3e-3};
@@ -151,9 +151,9 @@ TEST_CASE("Exchanging x and y exchanges the stiffnesses", "[stick]") {
   CHECK(t.xx == Approx(k.yy).epsilon(1e-11));
   CHECK(t.yy == Approx(k.xx).epsilon(1e-11));
   CHECK(t.xy == Approx(k.xy).epsilon(1e-9));
-  CHECK(std::abs(k.xy) > 1e-4 * k.xx);  // or the last line shows nothing
-  // The stiffness in any direction is positive, and freeing the lateral displacement can only
-  // soften.
+  CHECK(std::abs(k.xy) > 1e-4 * k.xx);  // otherwise the last line would show nothing
+  // The stiffness in any direction is positive, and freeing the lateral displacement can only make
+  // the contact softer.
   StickOptions lateral_free = options;
   lateral_free.hold_lateral = false;
   const StickStiffness soft = stick_stiffness(contact, grid, material, lateral_free);
@@ -174,8 +174,8 @@ TEST_CASE("A periodic cell stiffens an isolated contact by a compliance that fal
     const double periodic = stick_stiffness(contact, grid, material, {.tolerance = 1e-9}).xx;
     return 1 / free - 1 / periodic;
   };
-  // Next order: (a/L)³ against a/L, under one per cent at L = 8a. The kernels also differ within a
-  // cell, equally for both.
+  // The next order is (a/L)³ against a/L, below one per cent at L = 8a. The kernels also differ
+  // within a cell, equally for both.
   const double first = difference(64), second = difference(128), third = difference(256);
   CHECK((first - second) / (second - third) == Approx(2.0).epsilon(0.02));
 }
@@ -216,7 +216,8 @@ TEST_CASE("Free displacements are the integral of Cerruti's point solution", "[s
   const TangentialField u = solver.displacement(loaded, traction, everywhere);
   for (const auto& [ix, iy] : {std::pair<Index, Index>{3, 1}, {0, 6}, {8, 5}, {1, 0}}) {
     double ux = 0, uy = 0;
-    // Midpoint rule on 40² parts of the loaded cell; its error at two cells away is below 1e-5.
+    // Midpoint rule on 40² parts of the loaded cell; its error at a distance of two cells is below
+    // 1e-5.
     constexpr int parts = 40;
     for (int i = 0; i < parts; ++i)
       for (int j = 0; j < parts; ++j) {
@@ -251,9 +252,9 @@ TEST_CASE("The solved tractions give the displacements asked for and vanish off 
       contact.select((u.x - wanted.x).square() + (u.y - wanted.y).square(), 0).sum();
   const double rms = std::sqrt(misfit / static_cast<double>(contact.count()));
   CHECK(rms < 1.01e-18);
-  // What the solver reports is this misfit over the scale, up to the round-off of its recursion.
+  // The solver reports this misfit over the scale, up to the round-off of its recursion.
   CHECK(report.residual == Approx(rms / 1e-9).epsilon(0.01));
-  // A solve that starts from the solution has nothing left to do.
+  // A solve that starts from the solution has nothing to do.
   CHECK(solver.solve(contact, wanted, 1e-9, traction).iterations == 0);
 }
 
@@ -294,11 +295,11 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const NormalContactState state = press(surface, contact_modulus, at_pressure(pressures[k]));
     const StickStiffness direct = stick_stiffness(contact_set(state), grid, material);
-    // A sweep ends its stick solves early: K_t is a maximum, and its error the square of that of
-    // the tractions, 1e-3, at worst ten times.
+    // A sweep ends its stick solves early: K_t is a maximum, and its error is the square of that of
+    // the tractions, 1e-3, or at worst ten times that.
     CHECK(stuck.samples[k].tangential_stiffness == Approx(direct.xx).epsilon(1e-5));
     CHECK(stuck.samples[k].normal_stiffness == plain.samples[k].normal_stiffness);
-    // Ridges along y: stiffer across them than a round contact would be.
+    // Ridges along y are stiffer across than a round contact.
     CHECK(stuck.samples[k].tangential_stiffness > 1.02 * plain.samples[k].tangential_stiffness);
   }
 }
@@ -308,8 +309,8 @@ TEST_CASE(
     "[stick]") {
   // With the exact inverse of the normal response the condition number is 1/(1 − ν) = 1.43, each
   // step gains a factor of 11, and 1e-6 takes six. The inverse has an error of a tenth in the norm
-  // of G, which costs up to half as many again. The stencil takes 13 at 128², which has no such kernel,
-  // and more on larger grids.
+  // of G, which costs up to half as many more. The stencil takes 13 at 128², which has no
+  // multilevel kernel, and more on larger grids.
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   for (const Index n : {256, 512, 1024}) {
     const Grid2D grid{n, n, 1e-3, 1e-3};
@@ -322,9 +323,9 @@ TEST_CASE(
 }
 
 TEST_CASE("A stiffness is converged where both of its solves are", "[stick]") {
-  // A row of cells may take a step more in one direction than in the other. With one step less than
-  // the slower solve needs, the faster one still converges, which must not hide that the slower
-  // one, here the first, has not.
+  // A row of cells may take one step more in one direction than in the other. With one step less
+  // than the slower solve needs, the faster one still converges, which must not hide that the
+  // slower one, here the first, has not.
   const Grid2D grid{64, 64, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const ContactSet lying = ellipse(grid, 4.5e-4, 1.5e-5), standing = lying.transpose();

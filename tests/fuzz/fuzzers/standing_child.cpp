@@ -147,7 +147,7 @@ void run_twice(const Hdf5Reading& reading) {
   const Child::End end = child.rehearse_once();
   if (end == Child::End::well) {
     reading.read([&](std::span<const std::byte> bytes) {
-      const std::span<std::byte> place = reading.place(bytes.size());
+      const std::span<std::byte> place = reading.location(bytes.size());
       std::memcpy(place.data(), bytes.data(), bytes.size());
     });
     return;

@@ -14,7 +14,8 @@ int main() {
   for (salebra::Index i = 0; i < 64; ++i)
     surface.heights.row(i) = 1e-6 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / 64);
   const double closing = std::numbers::pi * material.contact_modulus * 1e-6 / 1e-3;
-  const auto state = salebra::press(surface, material.contact_modulus, at_pressure(1.01 * closing));
+  const auto state =
+      salebra::press(surface, material.contact_modulus, salebra::at_pressure(1.01 * closing));
   std::printf("area fraction %.4f, mean gap %.3g m\n", state.contact_area_fraction, state.mean_gap);
   return state.converged() && state.contact_area_fraction == 1 ? 0 : 1;
 }

@@ -6,15 +6,15 @@
 
 namespace salebra {
 
-/// Stretching of an isotropic surface: an isotropic correlation length ℓ becomes along·ℓ and
-/// across·ℓ.
+/// Stretching of an isotropic surface along two perpendicular directions: its correlation length ℓ
+/// becomes along·ℓ in the first direction and across·ℓ in the second.
 struct Anisotropy {
-  double along = 1;   ///< > 0
-  double across = 1;  ///< > 0
+  double along = 1;   ///< factor > 0 of the first direction
+  double across = 1;  ///< factor > 0 of the second direction
   double angle = 0;   ///< angle from the x axis to the direction of `along`, rad
 
-  /// Peklenik's number γ, the ratio of the correlation lengths along and across the lay: 1 is
-  /// isotropic, > 1 has its lay in the direction of `along`.
+  /// Peklenik's number γ, the ratio along/across of the correlation lengths: 1 for an isotropic
+  /// surface, > 1 if the lay is in the first direction, < 1 if it is in the second direction.
   double peklenik() const { return along / across; }
 };
 
@@ -30,8 +30,8 @@ constexpr void describe(auto&& visit, std::type_identity<Anisotropy>) {
         Quantity{"peklenik", dimensionless, "correlation length along x over that along y"});
 }
 
-/// Spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂ at constant
-/// rms height:
+/// Spectrum C of an isotropic surface with the spectrum C_iso that is stretched along two
+/// perpendicular directions e₁, e₂ (Anisotropy) at constant rms height:
 ///     const AnisotropicSpectrum spectrum(isotropic, {.along = 4, .across = 1});
 ///     C(q) = along·across·C_iso(|(along·q₁, across·q₂)|),  q_i = q·e_i.
 class AnisotropicSpectrum final : public Spectrum {

@@ -11,10 +11,10 @@ namespace salebra {
 
 /// Properties of a generated surface, known before it is made.
 struct Forecast {
-  SpectralMoments target;   ///< moments of the continuum, as requested
+  SpectralMoments target;   ///< moments of the spectrum without a grid, as requested
   SpectralMoments lattice;  ///< mean moments of surfaces on this grid
-  /// Relative standard deviation of the rms height of filtered noise, ½√(2ΣP²)/ΣP over the powers P
-  /// of all modes; 0 for random phase.
+  /// Relative standard deviation of the rms height of surfaces of filtered_noise(), ½√(2ΣP²)/ΣP
+  /// with the powers P of all modes. (The rms height of random_phase() surfaces does not scatter.)
   double rms_height_scatter = 0;
   std::size_t memory = 0;             ///< peak memory of the generation, bytes, heights included
   std::vector<std::string> warnings;  ///< sentences for the user; may be empty
@@ -32,15 +32,17 @@ constexpr void describe(auto&& visit, std::type_identity<Forecast>) {
 }
 
 /// Predicts moments, scatter, memory and warnings, e.g. `forecast(grid, spectrum).warnings`. It
-/// warns of fewer than eight cells in the shortest wavelength (contact areas are then too large,
-/// docs/theory.md, section 7), of a lattice rms height more than 5 % from the target, and of an
-/// rms_height_scatter above 5 % (a roll-off longer than about an eighth of the cell). Throws as
+/// warns if the shortest wavelength has fewer than eight cells (contact areas are then too large,
+/// docs/theory.md, section 7), if the rms height on the grid differs by more than 5 % from the
+/// target, and if rms_height_scatter exceeds 5 % (which happens if the roll-off wavelength is
+/// longer than about an eighth of the side of the surface). Throws wherever
 /// Spectrum::require_carried_by does. progress has the stages "moments" and "scatter"; a stop
 /// throws Interrupted. Cost: three sums over all modes.
 Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress = {});
 
 /// Returns the peak memory of filtered_noise and random_phase on this grid in this process, bytes,
-/// including the heights. They throw InvalidInput if it exceeds the available memory of the system.
+/// including the heights. These functions throw InvalidInput if it exceeds the available memory of
+/// the system.
 std::size_t generation_memory(const Grid2D& grid, const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -7,7 +7,7 @@
 
 namespace salebra {
 
-/// A wave with i periods along x and j along y; both may be negative.
+/// A wave with i periods along x and j periods along y; i and j may be negative.
 struct FourierMode {
   Index i = 0, j = 0;
   std::complex<double> amplitude;  ///< ĥ, m
@@ -15,10 +15,10 @@ struct FourierMode {
 
 /// Generates a surface from Fourier modes:
 ///     const Surface wave = surface_of_modes(grid, {{3, 0, 1e-9}});
-///     h(x, y) = Σ ĥ exp(2πi(ix/lx + jy/ly))
+///     h(x, y) = Σ ĥ exp(2π√−1 (i x/lx + j y/ly))
 /// The sum includes, for each mode, the opposite wave (−i, −j) with the conjugate amplitude, which
-/// need not be listed. Throws InvalidInput for a wave of fewer than two points, and for
-/// contradicting opposite waves.
+/// need not be listed. Throws InvalidInput for a wave with fewer than two points per period, and if
+/// a wave and its opposite are listed with amplitudes that are not conjugate.
 Surface surface_of_modes(const Grid2D& grid, const std::vector<FourierMode>& modes);
 
 }  // namespace salebra

@@ -21,30 +21,31 @@ struct HeightDistribution {
   std::string name;  ///< for provenance
 };
 
-/// Returns the inverse of Φ(x) = ½ erfc(−x/√2), to a few units in the last digit. Throws
-/// InvalidInput unless 0 < u < 1.
+/// Returns the standard normal quantile, i.e. the x with ½ erfc(−x/√2) = u, exact to a few units in
+/// the last digit. Throws InvalidInput unless 0 < u < 1.
 double normal_quantile(double u);
 
 HeightDistribution gaussian_heights();
 
-/// Weibull distribution u = 1 − exp(−x^shape), shape > 0. Skewness is 2 at shape 1, 0 near 3.6,
-/// negative above.
+/// Weibull distribution of heights x, u = 1 − exp(−x^shape), shape > 0. Its skewness is 2 for shape
+/// 1, 0 for a shape of about 3.6, and negative for larger shapes.
 HeightDistribution weibull_heights(double shape);
 
-/// Returns the member of Johnson's system with this skewness and kurtosis (3 for a Gaussian). A
-/// normal variable z becomes
+/// Returns the distribution of Johnson's system with this skewness and kurtosis (3 for a Gaussian).
+/// Its heights are functions of a normal variable z with parameters γ and δ,
 ///     sinh((z − γ)/δ) (S_U),  exp(z/δ) (S_L)  or  1/(1 + exp(−(z − γ)/δ)) (S_B).
-/// One of them fits every pair above kurtosis > skewness² + 1, the limit of all distributions:
-/// Johnson (1949). Throws InvalidInput below that limit, and so close to it that the curve is a
-/// pair of spikes.
+/// One of these types exists for every pair with kurtosis > skewness² + 1, which holds for all
+/// distributions [Johnson (1949)]. Throws InvalidInput if this condition is violated, or so nearly
+/// violated that the density consists of two spikes.
 HeightDistribution johnson_heights(double skewness, double kurtosis);
 
-/// Returns the distribution of given heights, such as those of a measured surface, interpolated
-/// linearly between the middles of their steps. Throws InvalidInput for fewer than two different
-/// values or for undefined ones.
+/// Returns the distribution of given heights, such as those of a measured surface. Its quantile
+/// function is linear between the sorted heights z_k, k from 0 to N − 1, which belong to u = (k +
+/// ½)/N. Throws InvalidInput for fewer than two different values or for undefined ones.
 HeightDistribution sampled_heights(std::vector<double> heights);
 
-/// Which property is exact in the result; the other is as good as the iteration makes it.
+/// The property that is exact in the result, heights (their distribution) or spectrum; the
+/// iteration makes the remaining one as accurate as possible.
 enum class Exact { heights, spectrum };
 
 template <>
@@ -56,21 +57,23 @@ struct EnumNames<Exact> {
 struct NonGaussianOptions {
   Exact exact = Exact::heights;
   int max_iterations = 200;  ///< >= 1
-  /// The iteration stops when it lowers the mismatch by less than this fraction; 0 … 1.
+  /// The iteration stops when a step lowers the spectrum mismatch by less than this fraction; 0 to
+  /// 1.
   double tolerance = 1e-3;
-  /// Stage "non-gaussian", many times per iteration; step counts finished iterations. A stop before
-  /// the first has begun throws Interrupted.
+  /// Called many times per iteration with the stage "non-gaussian"; step counts finished
+  /// iterations. A stop before the first iteration has begun throws Interrupted.
   Progress on_progress = {};
 };
 
 struct NonGaussianSurface {
   Surface surface;
   int iterations = 0;
-  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It
-  /// stays above 0 if distribution and spectrum cannot both be exact on this grid.
+  /// Deviation of the mode amplitudes |a| from those of the spectrum, √(Σ(|a| −
+  /// a_target)²/Σa_target²) over all modes, for the surface with exact heights. It stays above 0 if
+  /// height distribution and spectrum cannot be exact together on this grid.
   double spectrum_mismatch = 0;
-  /// `converged` means that the mismatch has stopped falling; `interrupted`, that the surface is
-  /// that of the last finished iteration.
+  /// `converged`: the mismatch has stopped falling. `interrupted`: the surface is that of the last
+  /// finished iteration.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -91,13 +94,13 @@ constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
 /// Generates a periodic surface with a given spectrum and height distribution:
 ///     const NonGaussianSurface made = non_gaussian(grid, spectrum, johnson_heights(-1, 5), 1);
 /// It iterates the amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn,
-/// it replaces heights by those of the distribution in the same order, and mode amplitudes by those
-/// of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers
-/// are the target and whose rms height is kept. The bits are the same for every thread count; since
-/// the order of heights depends on all points, a finer grid gives another surface. The grid
-/// truncates the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N). Errors are those of
-/// random_phase, with the memory of non_gaussian_memory. Cost: two real FFTs and a sort of all
-/// points per iteration.
+/// it replaces the heights by the heights of the distribution with the same ranks, and the mode
+/// amplitudes by those of the spectrum with the same phases. It starts from random_phase of the
+/// seed, whose mode powers are the target and whose rms height is kept. The bits are the same for
+/// every thread count; since the order of heights depends on all points, a finer grid gives another
+/// surface. The tails of the distribution are truncated: N points reach the quantiles 1/(2N) and 1
+/// − 1/(2N). Throws wherever random_phase does. Memory: non_gaussian_memory(). Cost: two real FFTs
+/// and a sort of all points per iteration.
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options = {});

@@ -19,31 +19,33 @@ class Spectrum {
  public:
   virtual ~Spectrum() = default;
 
-  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Never evaluated at q = 0, since a surface has
-  /// zero mean.
+  /// C(q), m⁴; q_x, q_y in rad/m. C must be even, C(−q) = C(q). It is never evaluated at q = 0,
+  /// because a generated surface has zero mean.
   virtual double density(double qx, double qy) const = 0;
-  /// Sets densities[k] = density((first + k)·step_x, qy), the row of wave vectors that generators
-  /// need; the value at wave vector 0 is arbitrary. Overrides are for speed and must agree with
-  /// density to rounding.
+  /// Sets densities[k] = density((first + k)·step_x, qy) for all k, i.e. for a row of wave vectors;
+  /// the value at wave vector 0 is arbitrary. Generators call this function; an override may be
+  /// faster, but must agree with density() within rounding.
   virtual void density_row(Index first, double step_x, double qy,
                            std::span<double> densities) const;
-  /// C vanishes for |q| beyond this, rad/m.
+  /// Wave number |q|, rad/m, above which C is 0.
   virtual double highest_wavenumber() const = 0;
-  /// Moments of the continuum: m0 = ∫C d²q, m2_x = ∫q_x²C d²q, m4_x = ∫q_x⁴C d²q.
+  /// Moments of the spectrum without a grid: m0 = ∫C d²q, m2_x = ∫q_x²C d²q, m4_x = ∫q_x⁴C d²q.
   virtual SpectralMoments moments() const = 0;
   /// One line for provenance.
   virtual std::string description() const = 0;
 
-  /// Returns the mean moments of surfaces on this grid: the same integrals as sums over the modes
-  /// that the grid carries, without the zero mode; a mode on a Nyquist line counts once. progress
-  /// has the stage "moments"; a stop throws Interrupted. ranks: processes that share the sum
-  /// collectively; the bits are the same for any number of processes. Throws as require_carried_by
-  /// does. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
+  /// Returns the mean moments of surfaces on this grid: the integrals of moments() as sums over the
+  /// modes of the grid, without the zero mode; a mode on a Nyquist line is counted once. progress
+  /// has the stage "moments"; a stop throws Interrupted. communicator: processes that compute the
+  /// sum collectively; the bits are the same for any number of processes. Throws wherever
+  /// require_carried_by does. Cost: one evaluation of C for each pair of modes within
+  /// highest_wavenumber.
   SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {},
                                   const Communicator& communicator = {}) const;
 
-  /// Throws InvalidInput if the cells are larger than half the shortest wavelength, so that the
-  /// grid would alias short waves, or if the shortest wavelength does not fit into the cell at all.
+  /// Throws InvalidInput if the grid cannot represent the spectrum: if its cells are larger than
+  /// half the shortest wavelength, so that short waves would be aliased, or if the shortest
+  /// wavelength is longer than the surface.
   void require_carried_by(const Grid2D& grid) const;
 };
 
@@ -58,11 +60,11 @@ class IsotropicSpectrum : public Spectrum {
 /// Parameters of a self-affine spectrum. Wavelengths are λ = 2π/q, m.
 struct SelfAffineParameters {
   double hurst = 0.8;  ///< H, 0 < H <= 1
-  std::optional<double> long_cutoff =
-      {};                              ///< λ_L; none: no limit, every wave that the cell carries
-  std::optional<double> rolloff = {};  ///< λ_r <= λ_L; none: λ_L, that is, no plateau
-  double short_cutoff = 0;             ///< λ_s, 0 < λ_s <= λ_r
-  std::optional<double> rms_height = {};  ///< m; exactly one of rms_height and rms_slope
+  /// Longest wavelength λ_L; empty: no limit, every wave that fits into the surface.
+  std::optional<double> long_cutoff = {};
+  std::optional<double> rolloff = {};     ///< λ_r <= λ_L; empty: λ_L, that is, no plateau
+  double short_cutoff = 0;                ///< λ_s, 0 < λ_s <= λ_r
+  std::optional<double> rms_height = {};  ///< m; give either rms_height or rms_slope
   std::optional<double> rms_slope = {};   ///< √⟨|∇h|²⟩
 };
 
@@ -83,22 +85,24 @@ constexpr void describe(auto&& visit, std::type_identity<SelfAffineParameters>) 
 ///     C = C0                        q_L <= q < q_r
 ///     C = C0 (q/q_r)^{−2(1+H)}      q_r <= q <= q_s
 ///     C = 0                         elsewhere.
-/// C0 gives the *continuum* the requested rms height (or slope). It does not depend on the grid, so
-/// long waves are the same at every resolution; lattice_moments(grid) gives the moments in a
-/// particular cell, where some of the longest waves are omitted or counted in full. A wave on a
-/// limit belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
+/// with the wave numbers q = 2π/λ of SelfAffineParameters. C0 is chosen so that moments(), i.e. the
+/// integrals over the spectrum *without a grid*, have the requested rms height (or slope). C0 does
+/// not depend on the grid, so long waves are the same at every resolution. lattice_moments(grid)
+/// gives the moments on a particular grid, on which some of the longest waves are missing or
+/// counted in full. A wave exactly at a limit belongs to the spectrum, within a relative tolerance
+/// of 1e-9 for the rounding of 2π/λ.
 class SelfAffineSpectrum final : public IsotropicSpectrum {
  public:
-  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, λ_L or
-  /// λ_r is given, and exactly one of rms_height and rms_slope is given and > 0. Also requires λ_L
-  /// > λ_s or a plateau, because a spectrum of zero width has no power.
+  /// Throws InvalidInput, whose message names the parameter, unless 0 < H <= 1, λ_L >= λ_r >= λ_s >
+  /// 0, λ_L or λ_r is given, and exactly one of rms_height and rms_slope is given and > 0. Also
+  /// requires λ_L > λ_s or a plateau, because a spectrum of zero width has no power.
   explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
 
   double radial_density(double q) const override;
   void density_row(Index first, double step_x, double qy,
                    std::span<double> densities) const override;
   double highest_wavenumber() const override { return q_short_; }
-  /// Closed form; continuous in H up to H = 1, where m2 has a logarithm.
+  /// Moments in closed form, valid for all H up to and including H = 1.
   SpectralMoments moments() const override;
   std::string description() const override;
 
@@ -106,7 +110,7 @@ class SelfAffineSpectrum final : public IsotropicSpectrum {
   double plateau() const { return plateau_; }  ///< C0, m⁴
 
  private:
-  /// ∫ q^order C/C0 d²q in closed form.
+  /// Returns ∫ q^order C/C0 d²q in closed form.
   double unscaled_integral(int order) const;
 
   SelfAffineParameters parameters_;

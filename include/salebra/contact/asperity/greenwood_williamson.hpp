@@ -41,15 +41,17 @@ constexpr void describe(auto&& visit, std::type_identity<HeightDensityPoint>) {
   visit(&HeightDensityPoint::density, Kept{"density", "summits per height, 1/m"});
 }
 
-/// Statistical ensemble of equal spherical caps with heights z distributed as φ(z):
+/// Statistical ensemble of spherical caps of equal radius whose heights z have the probability
+/// density φ(z):
 ///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
-///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s
-///                   below their mean
+///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, which
+///                   lies σ_s below the mean summit height
 ///     tabulated     given by `table`
 struct SummitEnsemble {
   double summit_density = 0;  ///< η, 1/m²
   double radius = 0;          ///< R, m
-  /// σ_s, m: standard deviation (Gaussian), decay length (exponential); not used with a table.
+  /// σ_s, m: standard deviation of the heights (gaussian) or decay length of their density
+  /// (exponential); not used for `tabulated`.
   double summit_rms = 0;
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
   SummitDistribution distribution = SummitDistribution::gaussian;
@@ -77,14 +79,15 @@ constexpr void describe(auto&& visit, std::type_identity<SummitEnsemble>) {
 /// Throws InvalidInput unless the moments are > 0 with α >= 1, which holds for any surface.
 SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4);
 
-/// Returns the ensemble with the density, mean radius, and mean and standard deviation of height of
-/// detected summits. mean_plane: mean of the surface's heights, m, from the zero of the summits'
-/// heights.
+/// Returns a Gaussian ensemble with the density, the mean radius, and the mean and standard
+/// deviation of height of detected summits. mean_plane: mean height of the surface, m, in the
+/// coordinate in which the summit heights are given.
 SummitEnsemble summit_ensemble(const SummitStatistics& statistics, double mean_plane = 0);
 
-/// Sums over the summits in contact. K = −dF/ds and F'' = d²F/ds², since δ = const − s.
+/// Sums over the summits in contact at a separation s. K = −dF/ds and F'' = d²F/ds², because the
+/// indentation is δ = const − s.
 struct AsperityContact {
-  double contacts = 0;          ///< N; an expectation for a statistical ensemble
+  double contacts = 0;          ///< number in contact; expected number for an ensemble
   double contact_area = 0;      ///< A_c, m²
   double force = 0;             ///< F, N
   double normal_stiffness = 0;  ///< K, N/m
@@ -104,7 +107,8 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
   visit(&S::converged, Kept{"converged", "only a model that iterates may say no"});
 }
 
-/// Contact of summits with a smooth rigid plane at separation s from their plane z = 0. Immutable.
+/// Contact of summits with a smooth rigid plane at the separation s from the plane z = 0 of the
+/// summit heights. Immutable.
 class AsperityModel {
  public:
   struct Common {
@@ -112,30 +116,31 @@ class AsperityModel {
     Material material;            ///< if G* is unknown, so is K_t
     double nominal_area = 0;      ///< A0 > 0, m²
     double mean_height = 0;       ///< height of z = 0 above the mean plane of the surface, m
-    double first_touch = 0;       ///< s where δ = 0; 0 if there is no highest summit
-    double upper_separation = 0;  ///< no force above this s, m
-    /// A step > 0 of s in which the force changes by a factor of a few, m.
+    double first_touch = 0;       ///< s of first touch, m; 0 for a statistical ensemble
+    double upper_separation = 0;  ///< separation s above which there is no force, m
+    /// A step of s, > 0, m, over which the force changes by a factor of a few.
     double height_scale = 0;
-    double rms_height = ForceSample::unknown;  ///< m
+    double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m
   };
   /// Throws InvalidInput unless material.contact_modulus and nominal_area are > 0.
   explicit AsperityModel(Common common);
   virtual ~AsperityModel();
 
   virtual AsperityContact at(double separation) const = 0;
-  /// One member of at(separation), which models may compute faster.
+  /// F, K or F'' alone, as in at(separation); a model may compute one of them faster than all.
   virtual double force(double separation) const { return at(separation).force; }
   virtual double normal_stiffness(double separation) const {
     return at(separation).normal_stiffness;
   }
   virtual double force_curvature(double separation) const { return at(separation).force_curvature; }
-  /// Separations at which F, K or K' is not smooth: where summits of given height touch, or where
-  /// the height density begins or bends.
+  /// Separations at which F, K or F'' is not smooth: where a summit of given height touches, or
+  /// where the height density begins or has a kink.
   virtual std::vector<double> break_separations() const { return {}; }
 
-  /// Returns s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
+  /// Returns the separation s at which the summits carry `force` > 0, N, exact to round-off.
   virtual double separation_of(double force) const;
-  /// δ = first_touch − s: from first touch for given summits, −s for a statistical ensemble.
+  /// Indentation δ = first_touch − s. For given summits it is measured from first touch; for a
+  /// statistical ensemble it is −s.
   double indentation(double separation) const { return common_.first_touch - separation; }
   /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the
   /// surface. The theory does not include the displacement of the material between the summits, so
@@ -148,11 +153,14 @@ class AsperityModel {
   Common common_;
 };
 
-/// Statistical ensemble with
+/// Greenwood–Williamson model of a statistical ensemble, with the number N of summits in contact
+/// and the contact area A_c:
 ///     N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ,
 ///     K = 2E*√R ηA0∫(z−s)^{1/2}φ, F'' = E*√R ηA0∫(z−s)^{−1/2}φ.
-/// It uses closed forms for tabulated heights and for exponential ones with s >= 0; otherwise GSL
-/// quadrature over t = √(z−s), where no integrand is singular, with a relative error below 1e-10.
+/// Here η is the summit density, R the radius, A0 the nominal area and φ the height density. For
+/// tabulated heights, and for exponential heights with s >= 0, it uses closed forms; otherwise
+/// quadrature over t = √(z−s), in which no integrand is singular, with a relative error below
+/// 1e-10.
 class StatisticalSummits final : public AsperityModel {
  public:
   /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, and for
@@ -174,10 +182,10 @@ class StatisticalSummits final : public AsperityModel {
   std::unique_ptr<const detail::HeightDensity> heights_;
 };
 
-/// How a summit's two principal curvatures are used.
+/// How the two principal curvatures of a summit enter its contact.
 enum class SummitShape {
   circular,   ///< a sphere with R = 1/(mean curvature)
-  elliptical  ///< Hertz's elliptical contact, exact; ratios below 1e-3 count as 1e-3
+  elliptical  ///< Hertz's exact elliptical contact; curvature ratios below 1e-3 count as 1e-3
 };
 
 template <>
@@ -186,15 +194,15 @@ struct EnumNames<SummitShape> {
       {{SummitShape::circular, "circular"}, {SummitShape::elliptical, "elliptical"}});
 };
 
-/// Deterministic ensemble: each summit of one surface with its own height and radius,
-///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2} and so on, over the summits with z_i > s.
-/// s is measured from the mean of the summit heights. F'' is infinite where a summit just touches;
-/// its integral is finite. Cost: one pass over the summits in contact.
+/// Contact of the summits of one surface, each with its own height z_i and radius R_i:
+///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2}, K = −dF/ds, F'' = d²F/ds², over the summits with z_i > s.
+/// The separation s is measured from the mean of the summit heights. F'' is infinite where a summit
+/// just touches, but integrable over s. Cost: one pass over the summits in contact.
 class DeterministicSummits final : public AsperityModel {
  public:
-  /// mean_plane: mean of the surface's heights, m, from the zero of the summits' heights.
-  /// nominal_area: area of the region searched for summits. Throws InvalidInput without summits, or
-  /// for a curvature that is not > 0.
+  /// mean_plane: mean height of the surface, m, in the coordinate in which the summit heights are
+  /// given. nominal_area: area of the region that was searched for summits, m². Throws InvalidInput
+  /// without summits, or for a curvature that is not > 0.
   DeterministicSummits(const std::vector<Summit>& summits, const Material& material,
                        double nominal_area, double mean_plane = 0,
                        double rms_height = ForceSample::unknown,
@@ -209,17 +217,17 @@ class DeterministicSummits final : public AsperityModel {
   std::vector<Cap> caps_;  ///< highest first, heights from their mean
 };
 
-/// Converts at(separation) to a sample of a curve.
+/// Converts the contact of a model at a separation to a sample of a curve.
 ForceSample force_sample(const AsperityModel& model, double separation,
                          const AsperityContact& contact);
 
-/// Compute curves at the given separations (m, any order) or pressures (Pa, > 0, any order), from
-/// the lowest force to the highest. Every quantity is set except K_t without G*; δ and ū are those
-/// of AsperityModel.
+/// Compute curves at the given separations (m, any order) or pressures (Pa, > 0, any order), sorted
+/// from the lowest force to the highest. Every quantity is set, except K_t if G* is unknown; δ and
+/// ū are those of AsperityModel.
 ForceCurve curve_at_separations(const AsperityModel& model, const std::vector<double>& separations);
 ForceCurve curve_at_pressures(const AsperityModel& model, const std::vector<double>& pressures);
 
-/// Exact law F(δ) of an ensemble of summits, without table or fit. δ is AsperityModel::indentation.
+/// Exact law F(δ) of an asperity model, without table or fit. δ is AsperityModel::indentation().
 class GreenwoodWilliamsonLaw final : public ContactLaw {
  public:
   /// Throws InvalidInput if G* of the model's material is unknown.
@@ -239,13 +247,15 @@ class GreenwoodWilliamsonLaw final : public ContactLaw {
   std::shared_ptr<const AsperityModel> model_;
 };
 
-/// Contact of two rough sides by Greenwood and Tripp (1970). Summits of radii R1 and R2 whose axes
-/// are r apart interfere by w = z − s − r²/(2(R1+R2)), z the sum of their heights, and carry
-/// Hertz's force with R = R1R2/(R1+R2); the tilt of the contacts is neglected. Over all pairs, with
-/// independent positions and Gaussian z, σ² = σ1² + σ2², M_n = ∫(z−s)^n φ:
+/// Contact of two rough sides by Greenwood and Tripp (1970). Two summits of radii R1 and R2 whose
+/// axes are a distance r apart overlap by w = z − s − r²/(2(R1+R2)), where z is the sum of their
+/// heights, and carry Hertz's force for the radius R = R1R2/(R1+R2); the tilt of the contact is
+/// neglected. Summed over all pairs, with independent positions, densities η1, η2, a Gaussian
+/// density φ of z with σ² = σ1² + σ2², and the moments M_n = ∫(z−s)^n φ, the number N of contacts,
+/// the contact area A_c and F are
 ///     N = 2π(R1+R2)η1η2A0 M_1,   A_c = π²R1R2η1η2A0 M_2,
 ///     F = (4/3)E*√R·(2/5)·2π(R1+R2)η1η2A0 M_{5/2},
-/// and K and F'' are its derivatives. s is the distance between the mean planes of the summits of
+/// and K and F'' are derivatives of F. s is the distance between the mean planes of the summits of
 /// the two sides.
 class GreenwoodTripp final : public AsperityModel {
  public:
@@ -261,7 +271,7 @@ class GreenwoodTripp final : public AsperityModel {
 
  private:
   std::unique_ptr<const detail::HeightDensity> heights_;  ///< of the sum of two heights
-  double pairs_, area_, scale_;                           ///< factors of M_1, M_2, M_{5/2}
+  double pairs_, area_, scale_;  ///< factors of M_1, M_2, M_{5/2} in N, A_c, F
 };
 
 }  // namespace salebra

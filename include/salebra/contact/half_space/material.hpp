@@ -12,9 +12,9 @@
 
 namespace salebra {
 
-/// Boundary conditions. periodic: the cell repeats in x and y, and every displacement has zero mean
-/// over it (the far field is the reference). free: one loaded patch on an infinite half-space, with
-/// zero displacement far away.
+/// Boundary conditions. periodic: the surface repeats in x and y, and displacements have zero mean
+/// over one period (they are measured from the far field). free: one loaded patch on an infinite
+/// half-space, with zero displacement far away.
 enum class Boundary { periodic, free };
 
 template <>
@@ -50,8 +50,8 @@ struct Material {
   double cerruti_isotropic = 0;  ///< Σ (1−ν_i)/(2π G_i)
   double cerruti_directed = 0;   ///< Σ ν_i/(2π G_i)
 
-  /// Returns G*/E*. Throws InvalidInput naming tangential_modulus if G* is unknown: there is no
-  /// default.
+  /// Returns G*/E*. If G* is unknown, throws InvalidInput, whose message names tangential_modulus;
+  /// there is no default.
   double modulus_ratio() const;
 
   /// Computes the constants of two bodies; the default second body is rigid. Throws InvalidInput
@@ -62,7 +62,8 @@ struct Material {
   /// Takes E* and G* as given. The Cerruti constants are those of one elastic body with this G*/E*;
   /// a ratio outside [2/3, 4/3] (ν from 0.5 to −1) makes them NaN.
   static Material of_moduli(double contact_modulus, double tangential_modulus);
-  /// Suffices for normal contact: G* and the Cerruti constants are NaN, and modulus_ratio() throws.
+  /// Makes a material with E* only, which suffices for normal contact: G* and the Cerruti constants
+  /// are NaN, and modulus_ratio() throws.
   static Material of_contact_modulus(double contact_modulus);
 };
 
@@ -71,13 +72,15 @@ constexpr void describe(auto&& visit, std::type_identity<Material>) {
         Quantity{"contact_modulus", Dimension::pressure, "contact modulus E*"});
   visit(&Material::tangential_modulus,
         Quantity{"tangential_modulus", Dimension::pressure, "tangential modulus G*"});
-  visit(&Material::cerruti_isotropic, Kept{"cerruti_isotropic", "sum of (1 - nu)/(2 pi G), 1/Pa"});
-  visit(&Material::cerruti_directed, Kept{"cerruti_directed", "sum of nu/(2 pi G), 1/Pa"});
+  visit(&Material::cerruti_isotropic,
+        Kept{"cerruti_isotropic", "sum of (1 - nu)/(2 pi G)", Dimension::inverse_pressure});
+  visit(&Material::cerruti_directed,
+        Kept{"cerruti_directed", "sum of nu/(2 pi G)", Dimension::inverse_pressure});
   visit(&Material::modulus_ratio, Quantity{"modulus_ratio", Dimension::dimensionless, "G*/E*"});
 }
 
 /// Returns the text of a warning if the nominal pressure exceeds E*/10: strains of the whole
-/// surface are then no longer small, and usually a unit was forgotten.
+/// surface are then no longer small, and usually a pressure or modulus was given in the wrong unit.
 std::optional<std::string> warning_of_pressure(double nominal_pressure, double contact_modulus);
 
 }  // namespace salebra

@@ -13,15 +13,15 @@ namespace salebra {
 struct PressureWindow {
   double pressure_min = 0;  ///< Pa
   double pressure_max = 0;  ///< Pa
-  int points = 0;
+  int points = 0;           ///< number of samples in the window
 
   /// Returns true if the pressure lies in the window, whose limits are widened by the relative
   /// slack.
   bool contains(double pressure, double slack = 0) const {
     return pressure >= pressure_min * (1 - slack) && pressure <= pressure_max * (1 + slack);
   }
-  /// Relative slack for rounding: a load of 2 MPa is returned as a sum over cells, whose last digit
-  /// must not put it outside a window that ends at 2 MPa.
+  /// Relative slack for rounding errors: the pressure of a sample at a load of 2 MPa is a sum over
+  /// cells, whose last digit must not put the sample outside a window that ends at 2 MPa.
   static constexpr double round_off = 1e-9;
 };
 
@@ -35,13 +35,13 @@ constexpr void describe(auto&& visit, std::type_identity<PressureWindow>) {
 
 /// Weight of a sample in the least-squares fit of ln p.
 enum class FitWeights {
-  /// The interval of ū up to half way to the neighbours. The sum of squares is then ∫(ln p − a +
-  /// ū/l)² dū by the trapezoidal rule, so that l depends on the curve and the window, not on the
-  /// spacing of the loads. Use it for computed curves, whose residuals are the misfit of the law,
-  /// not noise.
+  /// Weight of a sample: the interval of mean gap ū that reaches half way to its neighbouring
+  /// samples. The sum of squares for the fit p = exp(a − ū/l) is then ∫(ln p − a + ū/l)² dū by the
+  /// trapezoidal rule, so that l depends on the curve and the window, not on the spacing of the
+  /// loads. Use it for computed curves, whose residuals are the misfit of the law, not noise.
   spacing,
-  equal,  ///< one; for values with similar relative errors
-  force   ///< p²; for values with similar absolute errors, such as those of a load cell
+  equal,  ///< weight 1: for values with similar relative errors
+  force   ///< weight p²: for values with similar absolute errors, e.g. of a load cell
 };
 
 template <>
@@ -53,10 +53,10 @@ struct EnumNames<FitWeights> {
 };
 
 /// Fit of p = reference_pressure · exp(−ū/decay_length) by weighted least squares in ln p over a
-/// window, with 95 % limits by Student's t.
+/// window, with 95 % limits by Student's t. p is the nominal pressure, ū the mean gap.
 struct ExponentialFit {
   double decay_length = 0;      ///< l, m
-  double decay_length_low = 0;  ///< 95 % limits, m
+  double decay_length_low = 0;  ///< 95 % limits of l, m
   double decay_length_high = 0;
   double reference_pressure = 0;  ///< p at ū = 0, Pa
   double r_squared = 0;
@@ -84,33 +84,34 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialFit>) {
 /// Fits the exponential law to a curve:
 ///     const double decay_length = fit_exponential(curve).decay_length;
 /// It uses the samples with a pressure in [pressure_min, pressure_max], limits included to 1e-9.
-/// Without a window, it uses samples with ū between 1 and 2.5 h_rms, where the law is at its best,
-/// or all samples if h_rms is unknown. It ignores samples that did not converge or have no mean gap
-/// or no pressure > 0, and window.points of the argument; that of the result counts the samples.
-/// decay_length_high is infinite if the 95 % interval of the slope reaches zero. The interval
-/// assumes independent errors of ln p with one variance, whatever the weights. For a computed
-/// curve, whose residuals are the misfit of the law, it has no meaning: test_exponential gives the
-/// range of the local l instead. Throws InvalidInput for fewer than three points, equal gaps, or a
-/// pressure that does not fall with ū.
+/// Without a window, it uses samples with ū between 1 and 2.5 h_rms, where the law fits best, or
+/// all samples if h_rms is unknown. It ignores samples that did not converge and samples without a
+/// mean gap or a pressure > 0. window.points of the argument is ignored; window.points of the
+/// result is the number of samples used. decay_length_high is infinite if the 95 % interval of the
+/// slope reaches zero. The interval assumes independent errors of ln p with one variance, whatever
+/// the weights. For a computed curve the interval has no meaning, because the residuals are the
+/// misfit of the law, not noise; the range of the local decay length from test_exponential is more
+/// useful. Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not
+/// fall with ū.
 ExponentialFit fit_exponential(const ForceCurve& curve,
                                const std::optional<PressureWindow>& window = {},
                                FitWeights weights = FitWeights::spacing);
 
-/// Test for curvature of ln p: fits ln p = a + b ū + c ū² over the window and with the weights of
-/// fit_exponential, and tests c = 0 by Student's t.
+/// Test for curvature of ln p over the mean gap ū: fits ln p = a + b ū + c ū² with the window and
+/// weights of fit_exponential, and tests c = 0 by Student's t.
 struct ExponentialTest {
-  double quadratic = 0;             ///< c, 1/m²; > 0 if l grows with ū
-  double standard_error = 0;        ///< standard error of c, 1/m²
-  double significance = 1;          ///< p-value: two-sided probability of at least this |c| if the
-                                    ///< law holds
-  double decay_length_at_min_gap = 0;  ///< −dū/d ln p of the parabola at the smallest ū of the window,
-                                    ///< m
-  double decay_length_at_max_gap = 0;  ///< at the largest, m
+  double quadratic = 0;       ///< c, 1/m²; > 0 if the decay length grows with ū
+  double standard_error = 0;  ///< standard error of c, 1/m²
+  double significance = 1;    ///< p-value: two-sided probability of at least this |c| if the
+                              ///< law holds
+  /// −dū/d ln p of the parabola at the smallest ū of the window, m.
+  double decay_length_at_min_gap = 0;
+  double decay_length_at_max_gap = 0;  ///< at the largest ū of the window, m
   PressureWindow window;
 
-  /// Returns true if the law is rejected at this level. A computed curve has almost no noise, so
-  /// that any curvature is significant; the difference of the two decay lengths shows how much it
-  /// matters.
+  /// Returns true if the exponential law is rejected at this significance level. A computed curve
+  /// has almost no noise, so that any curvature is significant; the difference of the two decay
+  /// lengths shows how much it matters.
   bool refuted(double level = 0.05) const { return significance < level; }
 };
 
@@ -124,46 +125,48 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialTest>) {
   visit(&S::significance,
         Quantity{"significance", dimensionless, "probability of so large a bend if the law held"});
   visit(&S::decay_length_at_min_gap, Quantity{"decay_length_at_min_gap", length,
-                                           "local decay length at the close end of the window"});
+                                              "local decay length at the close end of the window"});
   visit(&S::decay_length_at_max_gap, Quantity{"decay_length_at_max_gap", length,
-                                            "local decay length at the far end of the window"});
+                                              "local decay length at the far end of the window"});
   visit(&S::window, Kept{"window", "pressures of the fit"});
 }
 
-/// Tests the law, e.g. `test_exponential(curve).refuted()`. Throws as fit_exponential does, and for
-/// fewer than four points.
+/// Tests the law, e.g. `test_exponential(curve).refuted()`. Throws wherever fit_exponential does,
+/// and for fewer than four points.
 ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {},
                                  FitWeights weights = FitWeights::spacing);
 
 /// How well F ∝ exp(−ū/l) describes a curve: the relative deviation of F/l², used in Eqs (12) and
-/// (16), from F'' at both ends of the window. For a computed curve the residuals are the misfit of
-/// the law, not scatter, so there is no probability.
+/// (16), from F'' = F/l_local² at both ends of the fit window, with the local decay length l_local.
+/// There is no probability, because the residuals of a computed curve are the misfit of the law,
+/// not scatter.
 struct LawDescription {
   double law_off_at_min_gap =
       0;  ///< (l_local/l)² − 1 at the smallest ū of the window; ∞ if l_local ≤ 0
-  double law_off_at_max_gap = 0;  ///< the same at the largest ū
-  bool fair = false;            ///< true if F/l² is within a factor of two of F'' at both ends
+  /// (l_local/l)² − 1 at the largest ū of the window; ∞ if l_local ≤ 0.
+  double law_off_at_max_gap = 0;
+  bool fair = false;  ///< true if F/l² is within a factor of two of F'' at both ends
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
   using enum Dimension;
   using S = LawDescription;
   visit(&S::law_off_at_min_gap, Quantity{"law_off_at_min_gap", dimensionless,
-                                      "F/l^2 over F'' at the close end of the window, less 1"});
+                                         "F/l^2 over F'' at the close end of the window, less 1"});
   visit(&S::law_off_at_max_gap, Quantity{"law_off_at_max_gap", dimensionless,
-                                       "F/l^2 over F'' at the far end of the window, less 1"});
+                                         "F/l^2 over F'' at the far end of the window, less 1"});
   visit(&S::fair,
         Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"});
 }
 
-/// Compares l of the fit with the local l at the closest and farthest end of its window, in any
-/// unit.
+/// Compares the fitted decay length with the local decay lengths at the smallest and at the largest
+/// mean gap of the window; all three in the same unit.
 LawDescription describe_law(double decay_length, double at_min_gap, double at_max_gap);
 
 /// Sensitivity of the fit to its window: the smallest and largest decay length of fit_exponential
-/// over all runs of consecutive samples that contain at least half of the window, and at least
-/// three.
+/// over all runs of consecutive samples that contain at least half of the samples of the window,
+/// and at least three.
 struct WindowSensitivity {
   double decay_length_min = 0;  ///< m
   double decay_length_max = 0;  ///< m
@@ -180,7 +183,7 @@ constexpr void describe(auto&& visit, std::type_identity<WindowSensitivity>) {
   visit(&S::windows, Kept{"windows", "parts of the window that were fitted"});
 }
 
-/// Throws as fit_exponential does.
+/// Computes the sensitivity of the fit to its window. Throws wherever fit_exponential does.
 WindowSensitivity window_sensitivity(const ForceCurve& curve,
                                      const std::optional<PressureWindow>& window = {},
                                      FitWeights weights = FitWeights::spacing);
@@ -199,7 +202,7 @@ constexpr void describe(auto&& visit, std::type_identity<LocalDecayLength>) {
   visit(&S::decay_length,
         Quantity{"local_decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"});
 }
-/// Throws InvalidInput for fewer than two usable samples.
+/// Computes the local decay length. Throws InvalidInput for fewer than two usable samples.
 LocalDecayLength local_decay_length(const ForceCurve& curve);
 
 }  // namespace salebra

@@ -11,9 +11,9 @@ namespace salebra {
 /// One state of a contact. Quantities that a model does not provide are NaN.
 struct ForceSample {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double indentation =
-      unknown;  ///< δ, m; larger is closer; measured from first touch if the model knows it
-  double mean_gap = unknown;  ///< ū, m; dū = −dδ
+  /// Indentation δ, m, which grows with approach; measured from first touch if the model knows it.
+  double indentation = unknown;
+  double mean_gap = unknown;  ///< mean gap ū, m; dū = −dδ
   double separation =
       unknown;  ///< s, m: distance of the smooth plane from the mean plane of the summits
                 ///< (Greenwood–Williamson)
@@ -46,8 +46,8 @@ constexpr void describe(auto&& visit, std::type_identity<ForceSample>) {
 /// The result of every contact model, ordered from the lowest force to the highest:
 ///     const std::vector<double> pressures = curve.column(&ForceSample::pressure);
 struct ForceCurve {
-  std::string model;                         ///< "bem", "greenwood-williamson", …
-  double nominal_area = 0;                   ///< A0, m²
+  std::string model;        ///< name of the model, e.g. "bem", "greenwood-williamson"
+  double nominal_area = 0;  ///< A0, m²
   double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m
   std::vector<ForceSample> samples;
   bool adhesive = false;  ///< true for contacts with adhesion, which TabulatedLaw rejects because

@@ -26,8 +26,9 @@ class ContactLaw {
   /// K_t(δ); (G*/E*)K unless the law has its own K_t.
   virtual double tangential_stiffness(double indentation) const;
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
-  /// K_t/K at δ: G*/E* unless the law has its own K_t. A spring with touching depth ζ slips at the
-  /// stretch μK/K_t (δ − ζ); with this ratio a contact that slides as a whole carries μF.
+  /// K_t/K at δ: G*/E* unless the law has its own K_t. With the coefficient of friction μ, a spring
+  /// that touches at the depth ζ slips at the stretch (μK/K_t)(δ − ζ); a contact that slides as a
+  /// whole then carries μF.
   virtual double stiffness_ratio(double indentation) const;
   virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
   virtual double highest_indentation() const;  ///< +∞ unless the law is a table
@@ -35,8 +36,8 @@ class ContactLaw {
   /// force.
   virtual double indentation_of(double force) const = 0;
 
-  /// Known indentations, increasing, at which F, K, K_t or one of their first derivatives jumps;
-  /// quadratures over δ converge fast between them.
+  /// Indentations, increasing, at which F, K, K_t or the first derivative of one of them is known
+  /// to jump. Quadratures over δ converge fast between these points.
   virtual std::vector<double> break_points() const;
 
   double modulus_ratio() const { return modulus_ratio_; }
@@ -45,7 +46,8 @@ class ContactLaw {
   double modulus_ratio_;
 };
 
-/// F = B δⁿ for δ > 0, 0 below: cone n = 2, paraboloid n = 3/2, profile r^m n = 1 + 1/m.
+/// Power law F = B δⁿ for δ > 0, and F = 0 for δ <= 0: n = 2 for a cone, n = 3/2 for a paraboloid,
+/// n = 1 + 1/m for a profile r^m.
 class PowerLaw final : public ContactLaw {
  public:
   PowerLaw(double coefficient, double exponent, double modulus_ratio);
@@ -61,8 +63,8 @@ class PowerLaw final : public ContactLaw {
   double coefficient_, exponent_;
 };
 
-/// F = F0 exp(δ/l), with δ = 0 where F = F0: the law of nominally flat rough surfaces, F ∝
-/// exp(−ū/l).
+/// Exponential law F = F0 exp(δ/l) of nominally flat rough surfaces (F ∝ exp(−ū/l)), with the
+/// reference force F0 at δ = 0 and the decay length l, m.
 class ExponentialLaw final : public ContactLaw {
  public:
   ExponentialLaw(double reference_force, double decay_length, double modulus_ratio);
@@ -76,13 +78,14 @@ class ExponentialLaw final : public ContactLaw {
   double reference_force_, decay_length_;
 };
 
-/// Law that interpolates a curve, computed or read from a file. One monotone cubic interpolates ln
-/// F over δ; its slopes at the nodes are K/F if every sample has K, otherwise four-point
-/// differences. K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2 in the spacing
-/// of the samples (K' jumps at the samples). If every sample has K_t, ln K_t is interpolated in the
-/// same way and modulus_ratio is not used; otherwise K_t = (G*/E*)K. δ is the samples' indentation,
-/// or −ū if any of them lacks it, which only shifts δ. Samples that did not converge or have F = 0
-/// are ignored. Throws InvalidInput for fewer than four usable samples or F not growing with δ.
+/// Law that interpolates a force curve, computed or read from a file. A monotone cubic interpolates
+/// ln F over δ; its slopes at the samples are K/F if every sample has K, otherwise four-point
+/// differences. K and F'' are the exact derivatives of the interpolant. The errors of F, K and F''
+/// are of order 4, 3 and 2 in the spacing of the samples (F'' jumps at the samples). If every
+/// sample has K_t, ln K_t is interpolated in the same way and modulus_ratio is not used; otherwise
+/// K_t = (G*/E*)K. δ is the indentation of the samples, or −ū if a sample has no indentation; this
+/// only shifts δ. Samples that did not converge or have F = 0 are ignored. Throws InvalidInput for
+/// fewer than four usable samples or F not growing with δ.
 class TabulatedLaw final : public ContactLaw {
  public:
   TabulatedLaw(const ForceCurve& curve, double modulus_ratio);
@@ -92,12 +95,12 @@ class TabulatedLaw final : public ContactLaw {
   double force_curvature(double indentation) const override;
   double tangential_stiffness(double indentation) const override;
   double tangential_curvature(double indentation) const override;
-  /// Beyond the ends of the table the value at the end applies.
+  /// K_t/K; beyond the first or last sample, its value at that sample.
   double stiffness_ratio(double indentation) const override;
   double lowest_indentation() const override;
   double highest_indentation() const override;
   double indentation_of(double force) const override;
-  std::vector<double> break_points() const override;  ///< the samples
+  std::vector<double> break_points() const override;  ///< the indentations of the samples
 
  private:
   struct Splines;

@@ -21,71 +21,77 @@ struct Estimate {
   double error = 0;
 };
 
-/// Computes Eq. (3), g(x) = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by
-/// adaptive quadrature in φ, which removes the singularity. slope: f'(r), r >= 0; breaks: radii at
-/// which f' is not smooth, increasing. Cost: 20 to 1000 evaluations of f'.
+/// Computes the one-dimensional image g of an axisymmetric profile f(r), Eq. (3) of the paper, g(x)
+/// = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by adaptive quadrature in
+/// φ, which removes the singularity at r = |x|. slope: f'(r), r >= 0; breaks: radii at which f' is
+/// not smooth, increasing. Cost: 20 to 1000 evaluations of f'.
 Estimate mdr_transform(const std::function<double(double)>& slope, double x,
                        std::span<const double> breaks = {});
 
-/// Computes the inverse, f(r) = (2/π) ∫_0^r g(x)/√(r² − x²) dx.
+/// Computes the profile from its image, f(r) = (2/π) ∫_0^r g(x)/√(r² − x²) dx. breaks: values of x
+/// at which g is not smooth, increasing.
 Estimate mdr_inverse(const std::function<double(double)>& image, double r,
                      std::span<const double> breaks = {});
 
 /// Computes the stress of a line load q(x) = q(−x) of the foundation, Eq. (17):
 ///     σ(r) = −(1/π) ∫_r^∞ q'(x)/√(x² − r²) dx
 ///          = (1/π) [q(a)/√(a² − r²) − ∫_r^a q'(x)/√(x² − r²) dx],
-/// where q jumps to 0 at the edge a. q_z = E*(δ − g) gives p(r), q_x gives τ(r). 0 for r >= a.
-/// slope: q'(x) for 0 < x < a, at most integrably singular at the breaks.
+/// where q jumps to 0 at the edge a. The normal line load q_z = E*(δ − g) gives the pressure p(r),
+/// the tangential line load q_x gives the shear stress τ(r). The result is 0 for r >= a. slope:
+/// q'(x) for 0 < x < a, whose singularities at `breaks` must be integrable; edge_value: q(a); edge:
+/// a.
 Estimate line_load_stress(const std::function<double(double)>& slope, double edge_value,
                           double edge, double r, std::span<const double> breaks = {});
 
-/// An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x) of Eq. (3). Immutable. Lengths
-/// in m. Evaluated at x, r >= 0 up to max_radius(); beyond: InvalidInput.
+/// An axisymmetric indenter z = f(r), f(0) = 0, and its one-dimensional image g(x), Eq. (3) of the
+/// paper. Immutable. Lengths in m. Arguments x and r must lie between 0 and max_radius(); otherwise
+/// functions throw InvalidInput.
 class IndenterProfile {
  public:
   virtual ~IndenterProfile() = default;
-  virtual double height(double r) const = 0;          ///< f(r)
-  virtual double image(double x) const = 0;           ///< g(x)
-  virtual double image_slope(double x) const = 0;     ///< g'(x), the c of the paper at the edge
+  virtual double height(double r) const = 0;  ///< f(r)
+  virtual double image(double x) const = 0;   ///< g(x)
+  /// g'(x); at the contact edge it is c of the paper.
+  virtual double image_slope(double x) const = 0;
   virtual double image_integral(double x) const = 0;  ///< ∫_0^x g dx
   /// Radius of the flat end, inside which g = 0: the minimum contact radius.
   virtual double flat_radius() const { return 0; }
   /// Radius at which the profile ends: beyond it f = ∞ (a punch) or is unknown (a table, the
   /// equator of a sphere).
   virtual double max_radius() const { return std::numeric_limits<double>::infinity(); }
-  /// True if the contact stops growing at max_radius() (the side of a punch), false if it then
-  /// leaves the known profile.
+  /// True if the contact cannot grow beyond max_radius() (the side of a punch); false if a larger
+  /// contact would leave the known profile.
   virtual bool has_side() const { return false; }
-  /// Radii at which f' is not smooth.
+  /// Radii at which the slope f' of the profile is not smooth.
   virtual std::vector<double> breaks() const { return {}; }
-  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput beyond the largest radius of
-  /// a profile without a side.
+  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput if the contact radius would
+  /// exceed max_radius() of a profile without a side.
   virtual double contact_radius(double indentation) const;
 };
 
-/// f = r tanθ: g = (π/2) tanθ |x|, Eqs (4), (5). angle: θ between the surface of the cone and the
-/// plane, 0 < θ < π/2, rad.
+/// Cone f = r tanθ, g = (π/2) tanθ |x|, Eqs (4), (5) of the paper. angle: θ between the surface of
+/// the cone and the plane, 0 < θ < π/2, rad.
 std::unique_ptr<IndenterProfile> cone_profile(double angle);
-/// f = r²/2R: g = x²/R.
+/// Paraboloid f = r²/2R, g = x²/R.
 std::unique_ptr<IndenterProfile> paraboloid_profile(double radius);
-/// f = B rⁿ, n > 0: g = κ_n B |x|ⁿ, κ_n = (√π n/2) Γ(n/2)/Γ((n+1)/2).
+/// Power profile f = B rⁿ, n > 0, g = κ_n B |x|ⁿ, κ_n = (√π n/2) Γ(n/2)/Γ((n+1)/2).
 std::unique_ptr<IndenterProfile> power_profile(double coefficient, double exponent);
-/// f = R − √(R² − r²), exactly: g = x artanh(x/R) (Sneddon 1965), up to the equator.
+/// Sphere f = R − √(R² − r²), g = x artanh(x/R) (Sneddon 1965), up to the equator r = R.
 std::unique_ptr<IndenterProfile> sphere_profile(double radius);
 /// A cylinder with a flat end of the given radius.
 std::unique_ptr<IndenterProfile> flat_punch_profile(double radius);
-/// A flat end with rounded edge: f = 0 for r < b, (r − b)²/2R beyond, b = flat_radius, R =
-/// edge_radius.
+/// A flat punch with a rounded edge: f = 0 for r < b, f = (r − b)²/2R for r >= b, with b =
+/// flat_radius and R = edge_radius.
 std::unique_ptr<IndenterProfile> rounded_punch_profile(double flat_radius, double edge_radius);
 
-/// A profile measured or computed at radii r_i: a monotone cubic interpolates f, and exact
-/// quadrature of each piece gives its image.
+/// A profile measured or computed at radii r_i: a monotone cubic interpolates the profile f, and
+/// exact quadrature of each cubic piece gives the image g.
 class TabulatedProfile final : public IndenterProfile {
  public:
-  /// radii: from 0, strictly increasing; heights: increasing from their first value, which becomes
-  /// 0; at least seven points. Otherwise throws InvalidInput that names the row, and also if the
-  /// points are so few that omitting every other one changes the image by more than 20 % in the
-  /// outer three quarters.
+  /// radii: from 0, strictly increasing, m; heights: increasing, m (the first height is subtracted
+  /// from all); at least seven points. Otherwise throws InvalidInput, whose message names the row.
+  /// It also throws if the points are so few that omitting every other point changes the image g by
+  /// more than 20 % somewhere in the outer three quarters of the radius.
   TabulatedProfile(std::vector<double> radii, std::vector<double> heights);
   ~TabulatedProfile() override;
   double height(double r) const override;
@@ -105,7 +111,8 @@ class TabulatedProfile final : public IndenterProfile {
   std::unique_ptr<const Table> table_;
 };
 
-/// Exact law of the contact of a profile with an elastic half-space (docs/theory.md, section 6):
+/// Exact law of the contact of a rigid axisymmetric profile, with image g and contact radius a,
+/// with an elastic half-space (docs/theory.md, section 6):
 ///     δ = g(a), F = 2E* ∫_0^a (δ − g) dx, K = 2E*a, F'' = 2E*/g'(a), K_t = (G*/E*)K.
 /// It generalises PowerLaw, which covers cone, paraboloid and power profiles.
 class IndenterLaw final : public ContactLaw {
@@ -119,10 +126,10 @@ class IndenterLaw final : public ContactLaw {
   double highest_indentation() const override;
   std::vector<double> break_points() const override;
   double contact_radius(double indentation) const;
-  /// p(r) under the indenter, Pa; infinite at the edge of a flat end.
+  /// Pressure p(r) under the indenter, Pa; infinite at the edge of a flat punch.
   double pressure(double indentation, double r) const;
-  /// Normal displacement of the half-space's surface, m: δ − f(r) in contact,
-  /// (2/π) ∫_0^a (δ − g(x))/√(r² − x²) dx outside it.
+  /// Normal displacement of the surface of the half-space, m: δ − f(r) inside the contact, (2/π)
+  /// ∫_0^a (δ − g(x))/√(r² − x²) dx outside the contact.
   double surface_displacement(double indentation, double r) const;
   const IndenterProfile& profile() const { return *profile_; }
   double contact_modulus() const { return contact_modulus_; }

@@ -11,9 +11,9 @@
 namespace salebra {
 
 /// Interaction energy per area φ(g) of two surfaces at a gap g >= 0, with φ(0) = −w, w the work of
-/// adhesion. Each potential is concave:
+/// adhesion. Each potential is a concave function of g with the range ρ:
 ///     exponential     −w exp(−g/ρ)
-///     maugis          −w (1 − g/ρ) below ρ, 0 beyond: the constant tension of Maugis (1992)
+///     maugis          −w (1 − g/ρ) for g < ρ, 0 for g >= ρ: the constant tension of Maugis (1992)
 ///     van_der_waals   −w/(1 + g/ρ)², with a hard wall
 enum class AdhesionPotential { exponential, maugis, van_der_waals };
 
@@ -32,9 +32,9 @@ struct Adhesion {
 
   double energy(double gap) const;   ///< φ(g), J/m²
   double tension(double gap) const;  ///< φ'(g), Pa
-  double max_tension() const;    ///< φ'(0), Pa: w/ρ; 2w/ρ for van_der_waals
-  /// Upper bound H + φ'(0) of the contact pressure p in a first loading, Pa: touching bodies carry
-  /// p − t.
+  double max_tension() const;        ///< φ'(0), Pa: w/ρ; 2w/ρ for van_der_waals
+  /// Upper bound H + φ'(0) of the contact pressure p in a first loading with the hardness H, Pa.
+  /// (Touching cells carry p minus the tension t, and this difference is limited to H.)
   double pressure_bound(double hardness) const { return hardness + max_tension(); }
   bool operator==(const Adhesion&) const = default;
 };
@@ -47,37 +47,38 @@ constexpr void describe(auto&& visit, std::type_identity<Adhesion>) {
 }
 
 /// Returns the width of the adhesive process zone at a contact edge in cells, E*w/(φ'(0)² · longer
-/// side of a cell); infinite for w = 0. Below 1.4 cells the grid, not the surfaces, determines
-/// where contacts begin and end.
+/// side of a cell); infinite for w = 0. If the zone is narrower than 1.4 cells, the grid determines
+/// where contacts begin and end, not the surfaces.
 double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, double contact_modulus);
 
 /// Returns the text of a warning if the process zone has fewer than 3.3 cells.
 std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
-                                                 double contact_modulus);
+                                                   double contact_modulus);
 
 struct AdhesiveContactOptions {
-  /// The solver stops when max |φ'(g) − t| over the cells with a gap, t being the acting tension,
-  /// is below this fraction of max(E*·rms slope, φ'(0)); 1e-10 … 1e-1.
+  /// The solver stops when the tension t satisfies |φ'(g) − t| < tolerance · max(E*·rms slope,
+  /// φ'(0)) in every cell with a gap g; 1e-10 to 1e-1.
   double tolerance = 1e-5;
   int max_outer_iterations = 500;  ///< maximum number of non-adhesive contact solves, >= 1
-  /// Options of the non-adhesive contacts; the solver sets their tolerance, start and checkpoints.
-  /// With a hardness the state is that of a first loading.
+  /// Options of the non-adhesive contacts that the solver uses; it sets their tolerance, start and
+  /// checkpoints itself. With a hardness, the result is the state of a plastic first loading.
   NormalContactOptions contact = {};
-  /// Tension of another state of the same surface, Pa, whose branch to follow: the previous state
-  /// when loading or unloading. nullptr starts from the contact without adhesion, or from first
-  /// touch. It must outlive the call.
+  /// Tension of a neighbouring state of the same surface, Pa, from which to start so that the
+  /// solution stays on its branch of loading or unloading. nullptr: starts from the contact without
+  /// adhesion, or from first touch. The field must outlive the call.
   const Field* start_tension = nullptr;
-  bool force_coarse = false;  ///< also solves with less than 1.4 cells in the process zone
+  bool force_coarse = false;  ///< true: accepts a process zone of less than 1.4 cells
 };
 
 /// Results that adhesion adds to the state of a contact.
 struct AdhesionOfState {
-  Field tension;               ///< t, as contact_pressure, Pa, >= 0
+  Field tension;               ///< t, in the shape of contact_pressure, Pa, >= 0
   double tension_force = 0;    ///< ∫t dA, N
   double adhesive_energy = 0;  ///< ∫φ(g) dA, J
-  /// Elastic and adhesive energy, energy of the load, P ū A (periodic) or −F·indentation (free),
-  /// and the plastic work of a first loading, J.
+  /// Sum of the elastic energy, the adhesive energy, the energy of the load (P ū A with the nominal
+  /// area A if periodic, −F·indentation if free) and the plastic work of a first loading, J.
   double total_energy = 0;
+  /// Error of the tension that was reached, defined as AdhesiveContactOptions::tolerance.
   double adhesion_residual = std::numeric_limits<double>::infinity();
   double cells_in_process_zone = 0;
   int outer_iterations = 0;  ///< number of non-adhesive contacts solved
@@ -105,9 +106,10 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionOfState>) {
   visit(&S::detached, Quantity{"detached", dimensionless, "whether the load parts the surfaces"});
 }
 
-/// Result of an adhesive contact. The contact pressure p acts on the touching cells, the tension t
-/// between all cells; mean pressure and force are those of p − t. `residual` belongs to the last
-/// non-adhesive contact; counts are totals. Unless it converged, the numbers must not be used.
+/// Result of an adhesive contact. The contact pressure p acts in touching cells, the tension t in
+/// all cells; mean_pressure and force are those of p − t. residual is that of the last non-adhesive
+/// contact; iterations and transform counts are totals. Unless the result converged, its numbers
+/// must not be used.
 struct AdhesiveContactState : NormalContactState, AdhesionOfState {};
 
 constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) {
@@ -120,28 +122,31 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 ///     const auto state = press_adhesive(surface, 1e9, at_pressure(1e6), adhesion);
 /// At a pressure P it finds a minimum of
 ///     E(g) = ½⟨(g + h) k (g + h)⟩ + ⟨φ(g)⟩ + P⟨g⟩,   g >= 0,   k = G⁻¹ of press(),
-/// at a mean gap that of the first two terms. The tangent of a concave φ lies above φ. With t =
-/// φ'(g_n), the non-adhesive contact of the heights h + G(t − ⟨t⟩) under the pressure P + ⟨t⟩
-/// minimises a function that lies above E and touches it at g_n; so E falls with each contact, from
-/// any start [difference-of-convex programming, Le Thi and Pham Dinh (2018)]. The extrapolation of
-/// Anderson (1965) of t is used if E falls with it. Solutions are local minima and depend on the
-/// start; with start_tension the first steps are not extrapolated and so descend the valley of that
-/// state.
-/// hardness   H, for a first loading: p − t is limited to H. Where it equals H, the surface sinks
-///            in by w >= 0, which adds H⟨w⟩ and −P⟨w⟩ to E; the contacts have the bound H + φ'(0).
-///            The gap is measured to the heights h − w, for which the state is an adhesive contact
-///            without a hardness; residual_surface() returns them
-/// target     as in press(), with other signs allowed: a pressure or force may pull, an indentation
-///            may be < 0 (before first touch). A pull that no contact can hold gives a detached
-///            state. At a given mean gap, and for a free contact at an indentation, states beyond
-///            the minimum of the force can be reached
-/// throws     InvalidInput before any work as press(); for less than 1.4 cells in the process zone,
-///            unless forced; with a hardness for anything but a load > 0 below it; for a free
-///            boundary at which the undeformed gap has more than 1e-2 of the largest tension.
-///            Non-convergence is returned, not thrown
-/// cost       10 to 40 contacts that start from each other, of some pairs each; 130 bytes per cell
-///            in addition to press(). Collective if the surface is distributed, with the same bits
-///            for any number of processes and threads
+/// where h are the heights and ⟨ ⟩ is the mean over the surface. At a given mean gap it minimises
+/// the first two terms. Because φ is concave, its tangent lies above φ. With t = φ'(g_n) at the
+/// current gap g_n, the non-adhesive contact of the heights h + G(t − ⟨t⟩) under the pressure P +
+/// ⟨t⟩ minimises a function that lies above E and touches it at g_n. E therefore falls with each
+/// contact, from any start [difference-of-convex programming, Le Thi and Pham Dinh (2018)].
+/// The extrapolation of t by Anderson (1965) is used whenever E falls with it. Solutions are local
+/// minima and depend on the start; with start_tension the first steps are not extrapolated, so that
+/// they lead to the minimum nearest to that state.
+/// hardness   contact.hardness = H, for a plastic first loading: p − t is limited to H. Where p − t
+///            = H, the surface sinks in by a depth d >= 0, which adds H⟨d⟩ and −P⟨d⟩ to E; p is
+///            bounded by H + φ'(0) in the non-adhesive contacts. The gap is measured to the
+///            residual heights h − d, which residual_surface() returns; the state is also the
+///            adhesive contact of these heights without a hardness
+/// point      as in press(), but negative values are allowed: a pressure or force may pull, an
+///            indentation may be < 0 (before first touch). A pull that no contact can hold gives a
+///            state with `detached` set. At a given mean gap, and for a free contact at a given
+///            indentation, states beyond the pull-off force can be reached
+/// throws     InvalidInput, before any computation, wherever press() does; for fewer than 1.4 cells
+///            in the process zone, unless force_coarse is set; with a hardness, unless the point is
+///            a pressure or force > 0 with a mean pressure below the hardness; and for a free
+///            boundary if the tension at the edge of the undeformed surface exceeds 1e-2 of the
+///            largest tension. Non-convergence is returned, not thrown
+/// cost       10 to 40 non-adhesive contacts, each started from the previous one and taking a few
+///            transform pairs; 130 bytes per cell in addition to press(). Collective if the surface
+///            is distributed, with the same bits for any number of processes and threads
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options = {});

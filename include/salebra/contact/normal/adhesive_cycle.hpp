@@ -11,8 +11,8 @@
 namespace salebra {
 
 struct AdhesiveCycleOptions {
-  AdhesiveContactOptions contact = {};  ///< loading starts from its start_tension
-  bool unload = false;                  ///< also unloads, for a full cycle
+  AdhesiveContactOptions contact = {};  ///< its start_tension starts the loading
+  bool unload = false;                  ///< true: unloads after loading, for a full cycle
   /// Called with each state, including its fields, as soon as it has converged.
   std::function<void(bool unloading, const AdhesiveContactState&)> on_state = {};
 };
@@ -20,26 +20,27 @@ struct AdhesiveCycleOptions {
 /// Results of a cycle of adhesive contacts; NaN if unknown.
 struct AdhesiveCycleNumbers {
   /// Pull-off pressure, Pa, >= 0: the largest mean tension during unloading. NaN without unloading,
-  /// and if the closest position has it, because loading did not go close enough.
+  /// and if the largest tension occurs at the closest position, because then the loading did not
+  /// bring the surfaces close enough.
   double pull_off_pressure = std::numeric_limits<double>::quiet_NaN();
   /// Energy lost in a cycle between the outermost and the closest position, ∮F dδ, J. NaN in load
   /// control, where separated surfaces move apart without limit, and if the branches do not meet at
   /// the outermost position.
   double adhesion_work_per_cycle = std::numeric_limits<double>::quiet_NaN();
-  /// Error of the work, J: its change when every other position is omitted, plus what two snaps
-  /// between positions may add, plus the effect of tensions that are wrong everywhere by the
-  /// residual.
+  /// Error of adhesion_work_per_cycle, J, the sum of three parts: its change when every other
+  /// position is omitted; the work that two snaps (into and out of contact) between positions may
+  /// add; and the effect of an error of the tension equal to the residual in every cell.
   double adhesion_work_error = std::numeric_limits<double>::quiet_NaN();
   /// Half the distance, from the closest position outward, over which unloading retraces loading,
-  /// m: an oscillation there with a smaller amplitude has no hysteresis. NaN if no hysteresis is
-  /// seen at all, and in load control.
+  /// m: an oscillation within this distance has no hysteresis. The value is thus the largest
+  /// amplitude of such an oscillation. NaN if no hysteresis is seen at all, and in load control.
   double reversible_amplitude = std::numeric_limits<double>::quiet_NaN();
-  /// Error of the amplitude, m: one position further out the forces differ by more than 1e-3 of the
-  /// largest pull.
+  /// Error of reversible_amplitude due to the spacing of the positions, m: one position further
+  /// out, the forces of loading and unloading differ by more than 1e-3 of the largest pull.
   double reversible_amplitude_error = std::numeric_limits<double>::quiet_NaN();
 
-  /// True if both branches have the same forces at all positions, to 1e-3 of the largest pull;
-  /// empty in load control.
+  /// True if loading and unloading have the same forces at all positions, to 1e-3 of the largest
+  /// pull; empty in load control.
   std::optional<bool> reversible() const;
 };
 
@@ -66,8 +67,10 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycleNumbers>) 
 /// A sequence of contacts, each started from the previous one. A state that did not converge is the
 /// last of its branch and ends the cycle.
 struct AdhesiveCycle : AdhesiveCycleNumbers {
-  std::vector<AdhesiveContactState> loading;    ///< without fields
-  std::vector<AdhesiveContactState> unloading;  ///< from the closest position outward
+  std::vector<AdhesiveContactState>
+      loading;  ///< states without fields, in the order of the positions
+  std::vector<AdhesiveContactState>
+      unloading;  ///< states without fields, from the closest position outward
 
   bool converged() const;
 };
@@ -81,14 +84,14 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
 }
 
 /// Presses a surface from position to position and, with `unload`, separates it through the same
-/// ones:
+/// positions in reverse order:
 ///     const AdhesiveCycle cycle = adhesive_cycle(
 ///         surface, 1e9, {at_pressure(1e5), at_pressure(1e6)}, adhesion, {.unload = true});
 /// In load control the unloading then pulls: the load doubles from step to step until the surfaces
 /// separate, and bisection finds the pull-off to 2 %. At given mean gaps and indentations, states
 /// beyond the minimum of the force are reached.
-/// points     all with one control quantity, from the loosest to the closest
-/// throws     InvalidInput before any work, as press_adhesive()
+/// points     positions, all with the same control quantity, from the loosest to the closest
+/// throws     InvalidInput, before any computation, wherever press_adhesive() does
 /// cost       one press_adhesive() per position
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
                              const std::vector<OperatingPoint>& points, const Adhesion& adhesion,

@@ -21,9 +21,9 @@ struct ContactSpots {
   std::vector<ContactSpot> spots;    ///< largest area first
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
   double perimeter = 0;              ///< perimeter of all spots along cell edges, m
-  double perimeter_along_x = 0;      ///< the part of it along x, m
-  /// A/A0 corrected for the area that a boundary element solution overestimates along contact
-  /// edges,
+  double perimeter_along_x = 0;      ///< part of the perimeter that runs along x, m
+  /// A/A0 corrected for the error that a boundary element solution makes along contact edges, where
+  /// it overestimates the area,
   ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
   /// by Yastrebov et al. (2017). It is never below 0.
   double corrected_area_fraction = 0;
@@ -47,10 +47,11 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSpots>) {
 ///     const ContactSpots spots = contact_spots(state.contact_pressure, surface.grid);
 /// Neighbours wrap for Boundary::periodic; for a free boundary the edge of the grid is an edge of
 /// the contact. Throws InvalidInput unless pressure has the shape of the grid.
-/// ranks  processes that share the rows of the pressure. Each gets all spots, with the same bits
-///        for any number of processes; collective
-/// Cost: two passes, and 32 bytes per contact cell.
+/// communicator  processes that share the rows of the pressure. Each process gets all spots, with
+///               the same bits for any number of processes; the call is collective
+/// Cost: two passes over the field, and 32 bytes per contact cell.
 ContactSpots contact_spots(const Field& pressure, const Grid2D& grid,
-                           Boundary boundary = Boundary::periodic, const Communicator& communicator = {});
+                           Boundary boundary = Boundary::periodic,
+                           const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -8,15 +8,18 @@
 namespace salebra {
 
 /// Distributions of pressure and gap in a contact, in bins of equal width from 0 to the largest
-/// value. A value between two bins belongs to the upper one, the largest to the last.
+/// value. A value on the border of two bins belongs to the upper bin, the largest value to the last
+/// bin.
 struct ContactDistributions {
-  /// P(p) over the nominal area, for cells in contact only: ∫P dp = A/A0, the rest is at p = 0.
+  /// Probability density P(p) of the pressure over the nominal area, for cells in contact only: ∫P
+  /// dp = A/A0; the remaining cells have p = 0.
   std::vector<double> contact_pressure;  ///< middle of the bin, Pa
-  std::vector<double> pressure_density;  ///< fraction of all cells in the bin per width, 1/Pa
+  std::vector<double> pressure_density;  ///< P(p): cells in the bin over all cells and width, 1/Pa
   double pressure_width = 0;             ///< width of a bin, Pa
-  /// P(g) over the nominal area, for cells out of contact only: ∫P dg = 1 − A/A0.
+  /// Probability density P(g) of the gap over the nominal area, for cells out of contact only: ∫P
+  /// dg = 1 − A/A0.
   std::vector<double> gap;          ///< middle of the bin, m
-  std::vector<double> gap_density;  ///< fraction of all cells in the bin per width, 1/m
+  std::vector<double> gap_density;  ///< P(g): cells in the bin over all cells and width, 1/m
   double gap_width = 0;             ///< width of a bin, m
 };
 
@@ -36,13 +39,14 @@ constexpr void describe(auto&& visit, std::type_identity<ContactDistributions>) 
 
 /// Computes the distributions of a state:
 ///     const ContactDistributions bins = contact_distributions(state, surface.grid);
-/// Those of pressure are empty if nothing touches, those of the gap in full contact. Cells with p >
-/// 0 are in contact, and pressures at the hardness fall into the last bin. Gaps below 0, within the
-/// tolerance of the solver, count as 0.
-/// bins     number for each distribution, 1 … 100000
-/// throws   InvalidInput for bins, and for fields that do not fill the grid
-/// cost     two passes. Collective if the state is distributed: every process gets all bins, with
-///          the bits of one process
+/// The distribution of pressure is empty if nothing touches, the distribution of the gap is empty
+/// in full contact. Cells with p > 0 are in contact, and pressures at the hardness fall into the
+/// last bin. Gaps below 0, within the tolerance of the solver, count as 0.
+/// bins     number of bins of each distribution, 1 to 100000
+/// throws   InvalidInput for a wrong number of bins, and for fields that do not have the shape of
+///          the grid
+/// cost     two passes over the fields. Collective if the state is distributed: every process gets
+///          all bins, with the same bits as in one process
 ContactDistributions contact_distributions(const NormalContactState& state, const Grid2D& grid,
                                            int bins = 100);
 

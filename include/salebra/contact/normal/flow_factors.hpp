@@ -10,29 +10,31 @@
 namespace salebra {
 
 struct FlowOptions {
-  /// Relative error of a flow factor, as estimated with the preconditioner; 1e-14 … 1e-1.
+  /// The solver stops at this relative error of a flow factor, as estimated with its
+  /// preconditioner; 1e-14 to 1e-1.
   double tolerance = 1e-8;
-  int max_iterations = 200;  ///< for each direction, >= 1
+  int max_iterations = 200;  ///< limit for each direction, >= 1
   Progress on_progress = {};
 };
 
 /// Viscous flow through the gap between rough surfaces.
 struct FlowFactors {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double mean_gap = unknown;  ///< ⟨g⟩ over all cells, those in contact included, m
+  double mean_gap = unknown;  ///< mean of g over all cells, contact included, m
   bool percolates_x = false;  ///< whether a path through the gap spans the period along x
-  bool percolates_y = false;
-  /// Flow along x under a pressure gradient along x, divided by the flow between smooth walls at
-  /// ⟨g⟩. NaN if the gap does not percolate along x: there is no flow.
+  bool percolates_y = false;  ///< whether a path through the gap spans the period along y
+  /// Flow factor along x: flow under a pressure gradient along x, divided by the flow between
+  /// smooth walls at the mean gap. NaN if no path through the gap spans the period along x, so that
+  /// there is no flow.
   double pressure_flow_factor_x = unknown;
-  double pressure_flow_factor_y = unknown;
+  double pressure_flow_factor_y = unknown;  ///< flow factor along y, likewise
   /// Gap between smooth walls with the same flow, averaged over x and y, m; NaN without flow.
   double effective_gap = unknown;
-  /// Estimate of both factors from the distribution of gaps alone. NaN if half of the cells or more
-  /// are closed, because the estimate then has no flow.
+  /// Bruggeman's estimate of the flow factors along x and y from the distribution of gaps alone.
+  /// NaN if half of the cells or more are closed, because the estimate then predicts no flow.
   double bruggeman_flow_factor = unknown;
   double residual = 0;  ///< relative error of the factors, as estimated by the solver
-  int iterations = 0;   ///< total for both directions
+  int iterations = 0;   ///< total of the solves along x and along y
   Termination termination = Termination::converged;
 
   bool converged() const { return termination == Termination::converged; }
@@ -67,22 +69,24 @@ constexpr void describe(auto&& visit, std::type_identity<FlowFactors>) {
 ///     const FlowFactors flow = flow_factors(state.gap, surface.grid);
 /// They follow from Reynolds' equation
 ///     ∇·(g³∇p) = 0,   ⟨∇p⟩ = e_x,   φ_x = ⟨g³ ∂p/∂x⟩/⟨g⟩³,
-/// and the same along y. The conductance of a face between two cells is the harmonic mean of their
-/// g³. Cells with a gap of at most 1e-9 ⟨g⟩ are closed; fluid passes the sides of cells, not the
-/// corners. φ_x = φ_y = 1 − (3/2)⟨(g − ⟨g⟩)²⟩/⟨g⟩² for an isotropic roughness much lower than the
-/// gap [Tripp (1983)]. Bruggeman's factor b solves ⟨(s − b)/(s + b)⟩ = 0 over all cells, s =
-/// g³/⟨g⟩³ [Bruggeman (1935)]; Dapp et al. (2012) compare it with the exact flow. Gaps of isotropic
-/// contacts stop percolating at a contact area of about 0.42 [Wang and Müser (2020)], and between
-/// 0.35 and 0.5 by chance if few roughness wavelengths fit into the period.
+/// where p is the fluid pressure and e_x the unit vector along x, and likewise along y. The
+/// conductance of a face between two cells is the harmonic mean of their g³. Cells with a gap of at
+/// most 1e-9 ⟨g⟩ are closed; fluid passes the sides of cells, not the corners. φ_x = φ_y = 1 −
+/// (3/2)⟨(g − ⟨g⟩)²⟩/⟨g⟩² for an isotropic roughness much lower than the gap [Tripp (1983)].
+/// Bruggeman's factor b solves ⟨(s − b)/(s + b)⟩ = 0 over all cells, s = g³/⟨g⟩³ [Bruggeman
+/// (1935)]; Dapp et al. (2012) compare it with the exact flow. Gaps of isotropic contacts stop
+/// percolating at a contact area of about 0.42 [Wang and Müser (2020)], and between 0.35 and 0.5 by
+/// chance if few roughness wavelengths fit into the period.
 /// gap      (nx, ny), m, finite; cells with a gap <= 0 are closed
-/// throws   InvalidInput before any work; non-convergence is returned, not thrown
+/// throws   InvalidInput, before any computation, for invalid gaps or options; non-convergence is
+///          returned, not thrown
 /// cost     conjugate gradients with an algebraic multigrid, 8 to 25 iterations per direction, each
 ///          as long as three transform pairs; about 100 bytes per cell. Results have the same bits
 ///          for every thread count
 FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions& options = {});
 
-/// Does the same for a contact, whose cells with p > 0 are closed. Throws InvalidInput if the
-/// contact is distributed over several processes.
+/// Computes the flow factors of the gap of a contact, in which cells with p > 0 are closed. Throws
+/// InvalidInput if the contact is distributed over several processes.
 FlowFactors flow_factors(const NormalContactState& state, const Grid2D& grid,
                          const FlowOptions& options = {});
 

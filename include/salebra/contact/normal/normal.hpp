@@ -14,7 +14,8 @@
 
 namespace salebra {
 
-/// Numerical precision. `mixed` computes transforms in float, residuals and acceptance in double.
+/// Numerical precision. `mixed` computes transforms in float, but the residual and the decision
+/// that the solution has converged in double; `full` computes everything in double.
 enum class Precision { mixed, full };
 
 template <>
@@ -24,42 +25,48 @@ struct EnumNames<Precision> {
 };
 
 struct NormalContactOptions {
-  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision;
-  /// 1e-14 … 1e-1. For a flat punch h_rms is replaced by the indentation, or by pressure·√area/E*.
+  /// The solver stops at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, with the pressure p and gap
+  /// g of each cell and the smallest gap g_min; e_c is evaluated with exact transforms in double
+  /// precision. 1e-14 to 1e-1. For a flat surface (h_rms = 0), h_rms is replaced by the
+  /// indentation, or by pressure·√area/E*.
   double tolerance = 1e-10;
-  int max_iterations = 1000;  ///< on the finest level, >= 1
+  int max_iterations = 1000;  ///< limit on the finest grid, >= 1
   Boundary boundary = Boundary::periodic;
   Precision precision = Precision::mixed;
-  /// Hardness, Pa: perfectly plastic cells carry no more and sink in without further load.
+  /// Hardness, Pa: a cell carries at most this pressure; at the hardness it sinks in plastically
+  /// without further load.
   double hardness = std::numeric_limits<double>::infinity();
-  /// Initial pressure for the iteration, Pa, >= 0, in the shape of the heights; nullptr starts from
-  /// coarser grids. It must outlive the call.
+  /// Initial pressure for the iteration, Pa, >= 0, in the shape of the heights; nullptr: the solver
+  /// starts from coarser grids. The field must outlive the call.
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
   /// Called between iterations on the finest grid with the current pressure, Pa, in the shape of
   /// the heights; a later call may start from it. Every process calls it at the same iteration; a
-  /// sweep calls it from several threads. It does not change results. It must throw on all
-  /// processes or none.
+  /// sweep calls it from several threads. It does not change results. If it throws, it must throw
+  /// on all processes.
   std::function<void(const Field& pressure)> on_checkpoint = {};
-  double checkpoint_every = 600;  ///< s of the root's clock, >= 0; 0: after each iteration
+  double checkpoint_every = 600;  ///< interval, s, >= 0; 0: after each iteration
 };
 
 /// Result of a normal contact. Unless it converged, the numbers describe the last iterate and must
 /// not be used.
 struct NormalContactState {
   Field contact_pressure;    ///< (nx, ny) or the rows of this process, Pa, >= 0
-  Field gap;                 ///< same shape, m, >= 0 up to the tolerance; 0 if pressure saturates
+  Field gap;                 ///< same shape, m, >= 0 within the tolerance; 0 at the hardness
   double mean_pressure = 0;  ///< Pa
   double force = 0;          ///< N
   double mean_gap = 0;       ///< ū: mean of gap over all cells, m
-  double indentation =
-      0;  ///< rigid approach from first touch, m; periodic and elastic: max h − mean h − ū
+  /// Rigid approach from first touch, m; for a periodic, elastic contact it equals max h − mean h −
+  /// ū with the heights h.
+  double indentation = 0;
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
-  double elastic_energy = 0;         ///< ½∫p u dA with zero-mean u (periodic), J
-  double residual = 0;               ///< e_c reached
-  int iterations = 0;                ///< on the finest level
-  int fft_count = 0;         ///< forward-and-backward pairs of the finest level, both precisions
-  int multilevel_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
+  double elastic_energy = 0;         ///< ½∫p u dA, J; periodic: with u of zero mean
+  double residual = 0;               ///< e_c reached (NormalContactOptions::tolerance)
+  int iterations = 0;                ///< on the finest grid
+  /// Forward-and-backward transform pairs on the finest grid, in float and double together.
+  int fft_count = 0;
+  /// Applications of the multilevel kernel on the finest grid; each replaces a transform pair.
+  int multilevel_count = 0;
   Termination termination = Termination::iteration_limit;
   Communicator communicator = {};  ///< processes that share the fields, as for the surface
 
@@ -96,32 +103,36 @@ ContactSet contact_set(const NormalContactState& state);
 /// Solves the frictionless contact of a rigid rough surface with an elastic half-space:
 ///     const NormalContactState state = press(surface, 1.1e11, at_pressure(2e8));
 /// For a given nominal pressure it minimises
-///     ½p·Gp − p·h  with 0 <= p <= hardness, mean p = nominal pressure,
+///     ½p·Gp − p·h  over all p with 0 <= p <= hardness and mean p = nominal pressure,
 ///     û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic);
-/// a force, mean gap or indentation can be given instead. The solver uses nested conjugate
-/// gradients on the contact set with a preconditioner without transforms; unlike the constrained CG
-/// of Polonsky and Keer (1999), it does not restart CG when the set changes. If contact and
-/// neighbourhood are a small part of a large grid, the iterations apply a multilevel kernel of
-/// stencils instead of G, and exact transforms only update the gap. For a surface distributed over
-/// processes the call is collective, and all numbers have the same bits as in one process.
+/// where h are the heights and u = Gp is the displacement under the pressure p. A force, mean gap
+/// or indentation can be given instead of a pressure. The solver uses conjugate gradients on the
+/// contact set, started from coarser grids, with a preconditioner that needs no transforms; unlike
+/// the constrained conjugate gradients of Polonsky and Keer (1999), it does not restart when the
+/// contact set changes. If the contact and its neighbourhood are a small part of a large grid, the
+/// iterations apply a multilevel kernel of stencils (an approximation of G) instead of transforms,
+/// and exact transforms only update the gap. For a surface distributed over processes the call is
+/// collective, and all numbers have the same bits as in one process.
 /// contact_modulus   E* > 0, Pa
-/// point             pressure and force > 0, the pressure below the hardness; 0 < mean gap < max h −
-///                   mean h, for periodic elastic contacts only; indentation > 0
-/// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              15 to 100 iterations of one transform pair, or of one application of the
-///                   multilevel kernel and 5 to 7 pairs in total; at a mean gap 3 to 20 times as
-///                   many if more than 0.99 of the cells touch; 50 to 75 bytes per cell with
-///                   heights and result, more for larger contacts (docs/performance.md)
+/// point             pressure and force > 0, the pressure below the hardness; indentation > 0; mean
+///                   gap between 0 and max h − mean h, for periodic elastic contacts only
+/// throws            InvalidInput, before any computation, for invalid arguments; non-convergence
+///                   is returned, not thrown
+/// cost              15 to 100 iterations with one transform pair each, or with one application of
+///                   the multilevel kernel each and 5 to 7 transform pairs in total; at a given
+///                   mean gap 3 to 20 times as many iterations if more than 0.99 of the cells
+///                   touch; 50 to 75 bytes per cell with heights and result, more for larger
+///                   contacts (docs/performance.md)
 NormalContactState press(const Surface& surface, double contact_modulus,
                          const OperatingPoint& point, const NormalContactOptions& options = {});
 
 /// Computes the normal stiffness K = dF/dδ, N/m, of the contact set {0 < p < hardness} of a state:
 ///     const double stiffness = normal_stiffness(state, surface.grid, 1.1e11);
-/// It needs one linear solve with the set held fixed. punch_pressure, if given, receives dp/dδ of
-/// the cells, Pa/m (unchanged if no solve was needed). Returns +infinity for a periodic cell in
-/// full contact, and NaN if the solve did not converge within max_iterations or was interrupted.
-/// Cost: as many iterations as the contact took, of one transform pair each, or three pairs in
-/// total with the multilevel kernel.
+/// It needs one linear solve with a fixed contact set. punch_pressure, if given, receives dp/dδ of
+/// each cell, Pa/m (it is not changed if no solve was needed). Returns +infinity for a periodic
+/// cell in full contact, and NaN if the solve did not converge within max_iterations or was
+/// interrupted. Cost: as many iterations as the contact took, with one transform pair each, or,
+/// with the multilevel kernel, three transform pairs in total.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 

@@ -10,8 +10,8 @@
 namespace salebra {
 
 struct PunchOptions {
-  /// Relative error of the displacement; the error of K is of the order of its square. 1e-14 …
-  /// 1e-1.
+  /// The solver stops at this relative error of the displacement; the relative error of K is of the
+  /// order of its square. 1e-14 to 1e-1.
   double tolerance = 1e-6;
   int max_iterations = 1000;  ///< >= 1
   Boundary boundary = Boundary::periodic;
@@ -19,16 +19,18 @@ struct PunchOptions {
 };
 
 /// Normal stiffness K = dF/dδ of a contact set, i.e. of a flat punch of that shape.
-/// normal_stiffness() gives the same for the elastic cells of a state.
+/// normal_stiffness() in normal.hpp computes K for the elastic cells of a contact state.
 struct PunchStiffness {
-  double normal_stiffness = 0;  ///< N/m
+  double normal_stiffness = 0;  ///< K, N/m
   int iterations = 0;
-  int fft_count = 0;
-  int multilevel_count = 0;  ///< applications of the multilevel kernel, each replacing a pair
-  double residual =
-      0;  ///< relative rms error of the displacement over the set; the error of K is of the order
-          ///< of its square
-  /// `converged` means that K settled to the square of the tolerance, or to 1e-14.
+  int fft_count = 0;  ///< forward-and-backward transform pairs
+  /// Applications of the multilevel kernel, each replacing a transform pair.
+  int multilevel_count = 0;
+  /// Relative rms error of the displacement over the contact set; the relative error of K is of the
+  /// order of its square.
+  double residual = 0;
+  /// `converged` means that K no longer changes by more than the square of the tolerance, or than
+  /// 1e-14, relative to K.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -50,8 +52,8 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
 ///     const double K = punch_stiffness(contact, grid, 1.1e11).normal_stiffness;
 /// pressure, if given, receives the pressure under a unit approach, Pa/m. Throws InvalidInput for a
 /// bad grid or option, and if every cell of a periodic grid is in contact. Cost: one transform pair
-/// per iteration, in float, and one in double; with the multilevel kernel (press()) three pairs in
-/// total.
+/// per iteration in float, and one transform pair in double; with the multilevel kernel (press())
+/// three transform pairs in total.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);

@@ -10,20 +10,22 @@ namespace salebra {
 
 struct CoupledContactOptions {
   SlidingContactOptions sliding = {};
-  NormalContactOptions contact = {};  ///< its boundary must be that of sliding.stick
-  /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default:
-  /// coupling_constant(material).
+  NormalContactOptions contact = {};  ///< contact.boundary must equal sliding.stick.boundary
+  /// Constant β/(πE*) of the coupling, 1/Pa, for example coupling_constant() of the two bodies.
+  /// Default: coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// The sweeps stop when the remaining (Σ|Δp| + Σ|Δτ|)/Σp is < tolerance, 1e-12 … 1e-1. It is the
-  /// sum of the changes to come, extrapolated from the decrease of the last two.
+  /// In each increment, sweeps (a normal and a tangential solve in turn) stop when the estimated
+  /// remaining change is below this tolerance, 1e-12 to 1e-1. The change of one sweep is (Σ|Δp| +
+  /// Σ|Δτ|)/Σp; the remaining change is the sum over all later sweeps, extrapolated from the last
+  /// two.
   double tolerance = 1e-6;
-  int max_sweeps = 60;  ///< per increment, >= 1
+  int max_sweeps = 60;  ///< limit per increment, >= 1
 };
 
 /// Report on one increment of a coupled contact.
 struct CoupledReport {
   int sweeps = 0;
-  double change = 0;  ///< (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
+  double change = 0;  ///< change (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -56,10 +58,11 @@ constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
 /// history:
 ///     CoupledContact contact(surface, material, {.sliding = {.friction_coefficient = 0.3}});
 ///     contact.advance(2e-9, {.x = 1e-9});
-/// In each increment a normal solve on the heights lowered by u_z[τ] alternates with a partial-slip
-/// solve with the displacement u_t[p] until nothing changes (Panagiotopoulos); the error falls by a
-/// factor of about β² per sweep or faster. For β = 0 it equals SlidingContact on the pressures of
-/// press, in two sweeps.
+/// In each increment two solves alternate until nothing changes (Panagiotopoulos): a normal solve
+/// for the heights lowered by the normal displacement u_z[τ] due to the tractions, and a
+/// partial-slip solve with the tangential displacement u_t[p] due to the pressures. The error falls
+/// by a factor of about β² per sweep or faster. For β = 0 the result equals that of SlidingContact
+/// with the pressures of press(), after two sweeps.
 class CoupledContact {
  public:
   /// Throws InvalidInput for a bad surface, material or option.
@@ -79,17 +82,18 @@ class CoupledContact {
   /// InvalidInput for another grid.
   void restore(CoupledState state);
 
-  /// Pressures, tractions, slip and losses.
+  /// The frictional part of the contact: pressures, tractions, slip and losses.
   const SlidingContact& sliding() const;
   double indentation() const;   ///< m
   double normal_force() const;  ///< N
-  /// ½∫(p u_z + τ·u_t) dA with all displacements, J
+  /// Elastic energy ½∫(p u_z + τ·u_t) dA, J, where u_z and u_t include the displacements due to the
+  /// coupling.
   double stored_energy() const;
   double normal_work() const;  ///< ∫F dδ since the start by the trapezoidal rule, J
   /// Part of normal_work(), J, that the trapezoidal rule assigns to cells that touch during only
-  /// part of an increment, while their gap closes or opens: ½Σ∫p g. Work minus this, stored energy
-  /// and losses balance to the tolerance of the sweeps. It vanishes for small increments unless
-  /// cells separate at a finite pressure.
+  /// part of an increment, while their gap g closes or opens: ½Σ∫p g dA over the increments. Total
+  /// work minus gap_work() equals stored energy plus losses within the tolerance of the sweeps.
+  /// gap_work() vanishes for small increments unless cells separate at a finite pressure.
   double gap_work() const;
   Termination termination() const;  ///< worst over all increments and their solves
 

@@ -17,8 +17,8 @@ class TangentialWorkspace;
 struct SlidingContactOptions {
   /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  /// Tangential displacement, m, > 0, that the tolerance of `stick` refers to, such as the range of
-  /// the motion.
+  /// Tangential displacement, m, > 0, for example the range of the motion; stick.tolerance is
+  /// relative to it.
   double motion_scale = 1;
   StickOptions stick = {.tolerance = 1e-8};
 };
@@ -32,18 +32,18 @@ struct TangentialMove {
 /// Complete history of a sliding contact between increments.
 struct SlidingState {
   Field contact_pressure;                   ///< (nx, ny), Pa
-  TangentialField shift;                    ///< displacement not caused by τ, m
-  TangentialField traction;                 ///< Pa
+  TangentialField shift;                    ///< displacement that τ does not cause (coupling), m
+  TangentialField traction;                 ///< τ, Pa
   TangentialField displacement;             ///< displacement of the cells in contact, m; includes
                                             ///< `shift`
-  Field pressure_before;                    ///< at the start of the last increment, Pa
-  TangentialField traction_before;          ///< the same, Pa
-  double last_move_x = 0, last_move_y = 0;  ///< last move, m
+  Field pressure_before;                    ///< pressure before the last increment, Pa
+  TangentialField traction_before;          ///< traction before the last increment, Pa
+  double last_move_x = 0, last_move_y = 0;  ///< move of the last increment, m
   Field loss;                               ///< loss since the start, J in each cell
-  ContactSet
-      prepared;  ///< kernels are ready for contacts within these cells; their rounding depends on
-                 ///< the set
-  double motion_scale = 1;  ///< for future increments, m
+  /// The kernels are ready for all contacts within these cells; the rounding of results depends on
+  /// this set.
+  ContactSet prepared;
+  double motion_scale = 1;  ///< SlidingContactOptions::motion_scale of later increments, m
   Index slipping = 0;       ///< cells at their limit after the last increment
   double work = 0;          ///< ∫F dx since the start, J
   double released = 0;      ///< part of the sum of `loss` released by opening cells, J
@@ -85,15 +85,17 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
 ///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has
 ///               |τ| = μp along its slip
 ///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure falls
-///     enter     a cell enters during the increment, with the displacement that the others have
-///               caused by then, and sticks to the body from there. Entries are spread over the
-///               increment in the order of their pressures: if all were in the middle, the last
-///               ones would slip although they should stick
-/// An increment of any size is exact in the sense of Cattaneo and Mindlin while the slipping part
-/// only grows in it; a smooth path is followed at second order. (Alternating pressures and motion,
-/// as a stuck contact allows, is first order: a body that moves back while its load falls then
-/// ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored
-/// energy and losses balance to the tolerance of the solver.
+///     enter     a cell enters during the increment, with the displacement that the cells already
+///               in contact have caused by then, and sticks to the body from that moment. Entries
+///               are spread over the increment in the order of the cells' pressures: if all cells
+///               entered in the middle of the increment, those with the smallest pressures would
+///               slip although they should stick
+/// An increment of any size gives Cattaneo and Mindlin's solution as long as the slipping part only
+/// grows during it; along a smooth path the error is of second order in the increments. (Changing
+/// pressures and position in turn instead of together, as is possible in full stick, would give a
+/// first-order error: a body that moves back while its load falls would ratchet.) Energies are sums
+/// over increments by the trapezoidal rule, in which work, stored energy and losses balance to the
+/// tolerance of the solver.
 class SlidingContact {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -104,46 +106,50 @@ class SlidingContact {
   SlidingContact& operator=(SlidingContact&&) noexcept;
   ~SlidingContact();
 
-  /// Candidate state after an increment, with its cost. Values cover `cells` only; their vectors
-  /// are (components × cells), with the components x and, with hold_lateral, y.
+  /// Candidate state after an increment, with a report on its solve. Arrays contain the values of
+  /// the cells listed in `cells` only. Arrays of vectors have the shape (components × cells): first
+  /// all x components and, with hold_lateral, then all y components.
   struct Increment {
-    std::vector<Index> cells;                 ///< in contact before or after it: ix·ny + iy,
-                                              ///< increasing
+    /// Indices ix·ny + iy, increasing, of the cells in contact before or after the increment.
+    std::vector<Index> cells;
     std::vector<double> contact_pressure;     ///< (cells), Pa
     std::vector<double> traction;             ///< Pa
     std::vector<double> traction_halfway;     ///< traction that determined the displacement of
                                               ///< entering cells, Pa
     std::vector<double> displacement;         ///< displacement of the cells, m; includes `shift`
-    std::vector<double> displacement_before;  ///< the same before the increment, m
+    std::vector<double> displacement_before;  ///< displacement before the increment, m
     std::vector<double> slip;                 ///< slip of the body over the cells, m
-    /// Displacement not caused by τ at the end, m; empty: unchanged.
+    /// Displacement that τ does not cause, at the end of the increment, m; empty: unchanged.
     std::optional<TangentialField> shift;
     TangentialMove move;
     PartialSlipReport report;
   };
   /// Computes an increment without accepting it.
-  /// shift   tangential displacement of the surface not caused by τ (the coupling to the pressures)
-  ///         at the end; nullptr: unchanged
-  /// guess   an earlier attempt or foreseen() to start from; nullptr: foreseen(move)
+  /// shift   tangential displacement of the surface at the end of the increment that is caused by
+  ///         the pressures (coupling), not by τ; nullptr: unchanged
+  /// guess   increment to start from: an earlier attempt or foreseen(); nullptr: foreseen(move)
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
+  /// Makes the increment part of the history.
   void accept(Increment increment);
-  /// Extrapolates a smooth path: repeats the changes of the last increment, in proportion to this
-  /// one. `step` and `last_step` are the changes of an indentation that moves with the body, m.
-  /// Only pressures and tractions are set.
+  /// Predicts the next increment of a smooth path: repeats the changes of the last increment,
+  /// scaled by the ratio of the new move to the last move. `step` and `last_step` are the new and
+  /// the last change of the indentation, m, if it changes too. Only the pressures and tractions of
+  /// the result are set.
   Increment foreseen(const TangentialMove& move, double step = 0, double last_step = 0) const;
-  /// Calls attempt and accept.
+  /// Calls attempt() and accept().
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
   /// Sets the steady state of sliding along (direction.x, direction.y) at these pressures: τ = μp
   /// in that direction in every cell, without lateral slip. Resets work and losses to 0. Cost: 2
-  /// FFT pairs. Throws InvalidInput if μ is infinite or the direction is 0.
+  /// transform pairs. Throws InvalidInput if μ is infinite or the direction is 0.
   void slide(const Field& pressure, const TangentialMove& direction);
 
   /// Sets the motion_scale of future increments, > 0, m.
   void set_motion_scale(double scale);
 
-  /// Prepares the kernels for every contact within `largest`, so that none has to rebuild them.
+  /// Prepares the kernels for every contact within `largest`, so that later increments need not
+  /// rebuild them.
   void reserve(const ContactSet& largest);
 
   SlidingState state() const;
@@ -153,25 +159,27 @@ class SlidingContact {
 
   const Field& contact_pressure() const { return state_.contact_pressure; }
   const TangentialField& traction() const { return state_.traction; }
-  TangentialMove tangential_force() const;  ///< force of the body on the surface: x, y in N
-  /// Returns the force after an increment.
+  TangentialMove tangential_force() const;  ///< of the body on the surface, N
+  /// Return the tangential force (N), the pressures (Pa) and the tractions (Pa) after an increment
+  /// that was not yet accepted.
   TangentialMove tangential_force(const Increment& increment) const;
   Field contact_pressure(const Increment& increment) const;
   TangentialField traction(const Increment& increment) const;
   Index slipping() const {
     return state_.slipping;
   }  ///< cells at their limit after the last increment
-  /// ½∫τ·(u − shift) dA, J
+  /// Elastic energy ½∫τ·(u − shift) dA, J: u is the displacement, shift the part of u that τ does
+  /// not cause.
   double stored_energy() const;
-  double tangential_energy() const;  ///< ½∫τ·u dA, the shift included, J
+  double tangential_energy() const;  ///< ½∫τ·u dA with the full displacement u, J
   /// ∫F dx since the start, J; a cell that enters during an increment counts from its entry.
   double work() const { return state_.work; }
   /// Frictional loss ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, if a cell
   /// separates with a traction, by its release.
   const Field& loss() const { return state_.loss; }
-  /// Part of the sum of loss() that cells still had in the increment in which they opened, J: all
-  /// of it at μ = ∞; at finite μ it vanishes for small increments, since a cell slips to zero
-  /// before it opens.
+  /// Part of the total of loss(), J, that is released when cells open with a traction: all of it
+  /// for μ = ∞; for finite μ it vanishes for small increments, because the traction of a cell slips
+  /// to zero before the cell opens.
   double released_energy() const { return state_.released; }
   Termination termination() const { return state_.termination; }  ///< worst over all increments
   long iterations() const { return state_.iterations; }

@@ -5,14 +5,15 @@
 
 namespace salebra::detail {
 
-/// Moore and Penrose's inverse of a of any shape and rank: the inverse where there is one, NaN
-/// where a is not finite.
+/// Moore–Penrose inverse of a matrix of any shape and rank; NaN if a is not finite.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
-/// The shortest x of least |ax − b|, a of any shape and rank.
+/// Least-squares solution x of ax = b: the shortest x that minimises |ax − b|. a may have any shape
+/// and rank.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
 
-/// a = V diag(values) Vᵀ of a finite symmetric a, values increasing.
+/// Eigenvalues in increasing order and eigenvectors of a finite symmetric matrix,
+/// a = V diag(values) Vᵀ.
 struct Modes {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;  // V

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Conditions of a damping constant in words, and the one word for all of them.
+// The verdicts on the assumptions of a damping constant as text, and the overall validity.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <salebra/damping/assumptions.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 
 namespace salebra {
 namespace {
 
-/// "at 1 MPa to 5 MPa, 20 MPa", one for each run of pressures.
+/// Lists the chosen pressures, neighbouring ones as a range: "at 1 MPa to 5 MPa, 20 MPa".
 std::string runs_of(const std::vector<bool>& chosen, std::span<const double> pressures) {
   const auto at = [&](std::size_t k) {
     return format_quantity(pressures[k], Dimension::pressure, 3);
@@ -25,7 +26,8 @@ std::string runs_of(const std::vector<bool>& chosen, std::span<const double> pre
   return text;
 }
 
-/// Which of several cases are meant: "at all loads", "in 2 of 5", "at 1 MPa to 5 MPa"; empty of one.
+/// Says in which cases something applies: "at all loads", "in 2 of 5" (without pressures), "at 1
+/// MPa to 5 MPa"; empty if there is only one case. chosen: whether it applies, for each case.
 std::string which_of(const std::vector<bool>& chosen, std::span<const double> pressures) {
   const auto count = std::size_t(std::ranges::count(chosen, true));
   return chosen.size() == 1       ? ""
@@ -34,7 +36,7 @@ std::string which_of(const std::vector<bool>& chosen, std::span<const double> pr
                                   : runs_of(chosen, pressures);
 }
 
-/// Worst first; what could not be judged comes between what fails and what holds.
+/// Order of severity: 0 for the worst verdict. Unknown lies between doubtful and holds.
 int rank_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::broken:
@@ -53,13 +55,14 @@ double first_limit(const Assumption& assumption) {
   return std::isnan(assumption.onset) ? assumption.limit_5_percent : assumption.onset;
 }
 
-/// How far beyond its limit, either way.
+/// Ratio of the value of the assumption to its first limit, as |ln(value/limit)|.
 double distance(const Assumption& assumption) {
   return std::abs(std::log(assumption.value / first_limit(assumption)));
 }
 
-/// The case that decides: of the worst verdict the one farthest from its limit, of those that hold
-/// the nearest.
+/// The case whose assumption decides the verdict on all cases: that with the worst verdict. Among
+/// equal verdicts it is the case farthest beyond the limit or, if the assumption holds, the one
+/// closest to it.
 const Assumption& worst_of(const AssumptionName& name, std::span<const Assumptions> cases) {
   const auto worse = [&](const Assumptions& one, const Assumptions& other) {
     const Assumption &a = one.*name.assumption, &b = other.*name.assumption;
@@ -71,26 +74,27 @@ const Assumption& worst_of(const AssumptionName& name, std::span<const Assumptio
 }
 
 std::string assumption_text(const AssumptionName& name, const Assumption& assumption) {
-  // Where load and first load are compared, flow begins at 1.
-  if (assumption.onset == 1) return "elastic again: loads below that of the first loading";
-  // No motion at this velocity, none at all, keeps it.
+  // For plasticity after a first loading the value is the load divided by the first load, and
+  // yielding begins at 1.
+  if (assumption.onset == 1) return "elastic again: loads below the largest of the first loading";
+  // At this velocity no motion satisfies the assumption, so there is no limit to name.
   if (assumption.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
-  // Without a limit, what comes before it.
+  // Without a known limit the text ends with the meaning of the value.
   if (!std::isfinite(first_limit(assumption)) ||
       (assumption.verdict == Verdict::unknown && assumption.needs.empty()))
-    return std::string(name.assumption.substr(0, name.assumption.find(": ")));
-  return fmt::format(fmt::runtime(name.assumption),
+    return std::string(name.statement.substr(0, name.statement.find(": ")));
+  return fmt::format(fmt::runtime(name.statement),
                      format_quantity(first_limit(assumption), name.value_dimension, 3));
 }
 
-Condition verdict_of(const AssumptionName& name, std::span<const Assumptions> cases,
-                       std::span<const double> pressures) {
+AssumptionVerdict verdict_of(const AssumptionName& name, std::span<const Assumptions> cases,
+                             std::span<const double> pressures) {
   const Assumption& worst = worst_of(name, cases);
   AssumptionVerdict one{.name = std::string(name.name),
-                .verdict = worst.verdict,
-                .assumption = assumption_text(name, worst)};
+                        .verdict = worst.verdict,
+                        .assumption = assumption_text(name, worst)};
   if (worst.verdict == Verdict::unknown) {
-    one.here = worst.needs.empty() ? "not known for such a motion"
+    one.here = worst.needs.empty() ? "not known for this motion"
                                    : fmt::format("`{}` not given", given_as(worst.needs));
     return one;
   }
@@ -107,17 +111,20 @@ Condition verdict_of(const AssumptionName& name, std::span<const Assumptions> ca
   return one;
 }
 
-/// Slow motions alone have a number of normal cycles in their excursion.
-bool is_slow_motion(const Assumptions& assumptions) { return !std::isnan(assumptions.slow_motion.value); }
+/// Only under a slow drag is the number of normal cycles per excursion known.
+bool is_slow_motion(const Assumptions& assumptions) {
+  return !std::isnan(assumptions.slow_motion.value);
+}
 
-/// The condition that a contact which slides as a whole breaks: its loss is right, but its γ is no
-/// damping constant.
-Condition no_damper(std::span<const Assumptions> cases, std::span<const double> pressures) {
+/// The verdict on the regime of a contact in gross sliding: its loss is right, but the damping
+/// constant γ depends on the velocity.
+AssumptionVerdict no_damper(std::span<const Assumptions> cases, std::span<const double> pressures) {
   AssumptionVerdict one{.name = "regime",
-                .verdict = Verdict::broken,
-                .assumption = "a damper: the contact does not slide as a whole"};
+                        .verdict = Verdict::broken,
+                        .assumption = "a damper: the contact does not slide as a whole"};
   std::vector<bool> sliding;
-  for (const Assumptions& assumptions : cases) sliding.push_back(assumptions.regime == Regime::sliding);
+  for (const Assumptions& assumptions : cases)
+    sliding.push_back(assumptions.regime == Regime::sliding);
   const Assumptions& first = *std::ranges::find(cases, Regime::sliding, &Assumptions::regime);
   one.here = is_slow_motion(first) ? "γ = µF/v: Coulomb friction, not a damper"
                                    : "γ = 4µF/(πωu_x): Coulomb friction, not a damper";
@@ -131,32 +138,46 @@ Condition no_damper(std::span<const Assumptions> cases, std::span<const double> 
 }  // namespace
 
 std::span<const AssumptionName> assumption_names() {
-  static const auto names = [] {
-    std::vector<AssumptionName> all;
-    describe(
-        [&]<class Line>(auto member, const Line& line) {
-          if constexpr (std::is_same_v<Line, AssumptionWords>) all.push_back({line, member});
-        },
-        std::type_identity<Assumptions>{});
-    return all;
-  }();
+  static constexpr AssumptionName names[] = {
+      {&Assumptions::slip_of_opening_springs, "slip_of_opening_springs",
+       "slip where the contact opens and closes", "no slip where it opens and closes: M above {}",
+       "M = {}", "use the loss with slip, which `friction_coefficient` gives"},
+      {&Assumptions::slip_of_closed_springs, "slip_of_closed_springs", "slip where it stays closed",
+       "no slip where it stays closed: excursion below {}", "{}",
+       "use the loss with slip, which `friction_coefficient` gives", Dimension::length},
+      {&Assumptions::slow_motion, "slow_motion", "slow tangential motion",
+       "slow: at least {} normal cycles in an excursion", "{}",
+       "a longer `excursion`, or the motion with its two frequencies"},
+      {&Assumptions::amplitude, "amplitude", "small amplitude of Eqs (12), (15) and (16)",
+       "Eqs (12), (15) and (16): amplitude below {}", "{}",
+       "the damping constant itself has no such limit", Dimension::length},
+      {&Assumptions::plasticity, "plasticity", "plasticity",
+       "elastic: pressure on spots below {} of the hardness", "{} at peak",
+       "reduce the load; a surface with `hardness` is first loaded plastically"},
+      {&Assumptions::inertia, "inertia", "inertia", "quasi-static: ωa/c_s below {}", "{} at peak",
+       "a lower `frequency`, or a smaller part of the contact"},
+      {&Assumptions::coupling, "coupling", "coupling",
+       "pressure and traction uncoupled: {} of the loss", "{}",
+       "the coupled cycle in three dimensions computes it"},
+  };
   return names;
 }
 
 std::string given_as(const std::string& parameter) {
-  // A law given by its formula has neither size nor pressure.
+  // A law given by its formula has neither a loaded size nor a maximum pressure; the user gives
+  // both by a curve.
   if (parameter == "loaded_size" || parameter == "max_pressure") return "curve";
-  return parameter == "angular_frequency" ? "frequency" : fact;
+  return parameter == "angular_frequency" ? "frequency" : parameter;
 }
 
 std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, bool slip_followed,
-                                     std::span<const double> pressures) {
+                                           std::span<const double> pressures) {
   std::vector<AssumptionVerdict> verdicts;
   for (const AssumptionName& name : assumption_names()) {
     const bool slip = name.assumption == &Assumptions::slip_of_opening_springs ||
                       name.assumption == &Assumptions::slip_of_closed_springs;
     if ((slip && slip_followed) || name.assumption == &Assumptions::amplitude) continue;
-    // A motion that is not slow by kind has no such condition.
+    // An assumption without a value does not apply to the motion, and is left out.
     AssumptionVerdict one = verdict_of(name, cases, pressures);
     if (one.verdict == Verdict::holds && one.here.empty()) continue;
     verdicts.push_back(std::move(one));
@@ -168,17 +189,19 @@ std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, b
   return verdicts;
 }
 
-Condition closed_form_verdict(std::span<const Assumptions> cases,
-                                std::span<const double> pressures) {
-  const auto name = std::ranges::find_if(
-      assumption_names(), [](const AssumptionName& one) { return one.assumption == &Assumptions::amplitude; });
+AssumptionVerdict closed_form_verdict(std::span<const Assumptions> cases,
+                                      std::span<const double> pressures) {
+  const auto name = std::ranges::find_if(assumption_names(), [](const AssumptionName& one) {
+    return one.assumption == &Assumptions::amplitude;
+  });
   return verdict_of(*name, cases, pressures);
 }
 
 Validity validity_of(std::span<const AssumptionVerdict> verdicts) {
   int worst = rank_of(Verdict::holds);
   for (const AssumptionVerdict& one : verdicts) {
-    // No fact settles it: what is not modelled (docs/limits.md) is said once, in its line.
+    // No parameter of the user can settle an unknown verdict on coupling, since coupling of a slow
+    // drag is not modelled (docs/limits.md). It therefore does not count.
     if (one.name == "coupling" && one.verdict == Verdict::unknown) continue;
     worst = std::min(worst, rank_of(one.verdict));
   }
@@ -199,7 +222,8 @@ std::string in_words(std::span<const AssumptionVerdict> verdicts) {
     const std::string here =
         one.verdict == Verdict::unknown || one.here.empty() ? one.here : "here " + one.here;
     const std::string line = fmt::format("  {:<2}  {}", mark, one.assumption);
-    // The widths count bytes: of "µ" and "ω" one too many, which is too early by a column.
+    // Widths are counted in bytes. "µ" and "ω" have two bytes, so lines with them break one column
+    // early.
     if (here.empty())
       text += line + "\n";
     else if (line.size() + 2 + here.size() <= width)
@@ -212,7 +236,8 @@ std::string in_words(std::span<const AssumptionVerdict> verdicts) {
   return text;
 }
 
-std::string regimes_in_words(std::span<const Assumptions> cases, std::span<const double> pressures) {
+std::string regimes_in_words(std::span<const Assumptions> cases,
+                             std::span<const double> pressures) {
   std::string text;
   for (const Regime regime :
        {Regime::sliding, Regime::partial_slip, Regime::no_slip, Regime::unknown}) {
@@ -246,7 +271,8 @@ std::string motion_without_slip(std::span<const Assumptions> cases) {
     const double friction = judged->largest[i].friction_coefficient;
     std::string motion;
     if (excursion == 0) {
-      // What slips with much friction slips with less.
+      // With this coefficient of friction even the shortest excursion slips. With smaller ones it
+      // slips too, so the text names the largest such coefficient.
       none = fmt::format("no excursion (µ up to {:g})", friction);
       continue;
     }

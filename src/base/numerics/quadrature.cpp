@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adaptive quadrature with break points, and root search, by GSL; exceptions cross GSL's C code.
+// Adaptive quadrature with break points, and root search, by GSL.
 #include "quadrature.hpp"
 
 #include <gsl/gsl_errno.h>
@@ -23,7 +23,8 @@ namespace {
 using Workspace =
     std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)>;
 
-// GSL is C: an exception must not unwind through its frames.
+// GSL is written in C: an exception of the integrand must not unwind through GSL's functions, so it
+// is kept and thrown again after GSL has returned.
 struct Guarded {
   const std::function<double(double)>& f;
   std::exception_ptr failure;
@@ -62,8 +63,8 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
                                           absolute_tolerance, relative_tolerance, max_intervals,
                                           workspace.get(), &result.value, &result.error);
   if (guarded.failure) std::rethrow_exception(guarded.failure);
-  // Round-off ends the refinement with a status of its own when the tolerance is nearly reached;
-  // the estimate decides.
+  // If the tolerance is near round-off, GSL ends the refinement with a status for round-off; then
+  // the error estimate decides whether the integral has converged.
   const double goal = std::max(absolute_tolerance, relative_tolerance * std::abs(result.value));
   result.converged =
       std::isfinite(result.value) && (status == GSL_SUCCESS || result.error <= 10 * goal);
@@ -71,8 +72,8 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
 }
 
 double find_root(const std::function<double(double)>& f, double low, double high) {
-  // The zero lies between `best` and `bound`; `last` is the point before `best`, for the
-  // interpolation.
+  // The zero lies between `best` and `bound`. `last` is the argument that was `best` or `bound`
+  // before; the interpolation needs it as a third point.
   double best = high, bound = low, last = low;
   double f_best = f(best), f_bound = f(bound), f_last = f_bound;
   if (f_bound == 0) return bound;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pseudo-inverses and eigenvalues of small dense matrices by GSL, of dense_systems.hpp.
+// Pseudo-inverses and eigenvalues of small dense matrices, by GSL.
 #include "dense_systems.hpp"
 
 #include <gsl/gsl_eigen.h>
@@ -14,7 +14,7 @@
 namespace salebra::detail {
 namespace {
 
-// GSL stores matrices so.
+// Row-major matrices, the layout of GSL's matrices.
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 gsl_matrix_view view(RowMajor& a) {
@@ -28,17 +28,17 @@ gsl_vector_view view(Eigen::VectorXd& a) {
 }  // namespace
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
-  // The rotations would not converge.
+  // With numbers that are not finite, the Jacobi rotations would not converge.
   if (!a.allFinite())
     return Eigen::MatrixXd::Constant(a.cols(), a.rows(), std::numeric_limits<double>::quiet_NaN());
   if (a.rows() < a.cols()) return pseudo_inverse(a.transpose()).transpose();
-  // One-sided Jacobi rotations: the small singular values keep their digits.
+  // One-sided Jacobi rotations keep the digits of small singular values.
   RowMajor u = a, v(a.cols(), a.cols());
   Eigen::VectorXd values(a.cols());
   gsl_matrix_view u_view = view(u), v_view = view(v);
   gsl_vector_view value_view = view(values);
   gsl_linalg_SV_decomp_jacobi(&u_view.matrix, &v_view.matrix, &value_view.vector);
-  // A singular value of that size is round-off of zero.
+  // Singular values below this are 0 but for round-off.
   const double least = std::numeric_limits<double>::epsilon() * static_cast<double>(a.rows()) *
                        (values.size() > 0 ? values.maxCoeff() : 0);
   const Eigen::VectorXd inverse =

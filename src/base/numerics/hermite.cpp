@@ -14,8 +14,8 @@ double four_point_slope(const std::vector<double>& x, const std::vector<double>&
   double slope = 0;
   for (std::size_t j = first; j < first + 4; ++j) {
     if (j == at) continue;
-    // Weights of Lagrange's polynomials at a node; those of all nodes sum to zero, so that y_j −
-    // y_at carries it all.
+    // Weight of node j in the derivative at node `at`, from Lagrange's polynomials. The weights of
+    // all nodes sum to zero, so only the differences y_j − y_at contribute.
     double weight = 1 / (x[j] - x[at]);
     for (std::size_t k = first; k < first + 4; ++k)
       if (k != j && k != at) weight *= (x[at] - x[k]) / (x[j] - x[k]);
@@ -39,7 +39,7 @@ MonotoneHermite::MonotoneHermite(std::vector<double> x, std::vector<double> y,
     slopes_.resize(nodes);
     for (std::size_t i = 0; i < nodes; ++i) {
       std::size_t first = std::min(i - std::min<std::size_t>(i, 1), nodes - 4);
-      // The more compact one of the two windows around an inner node is taken.
+      // Of the two windows of four nodes around an inner node, the shorter one is used.
       if (i >= 2 && i + 2 < nodes && x_[i] - x_[i - 2] < x_[i + 2] - x_[i]) first = i - 2;
       slopes_[i] = four_point_slope(x_, y_, first, i);
     }
@@ -70,7 +70,8 @@ double MonotoneHermite::where(double value) const {
   const std::size_t i = static_cast<std::size_t>(above - y_.begin()) - 1;
   double low = x_[i], high = x_[i + 1];
   double x = low + (high - low) * (value - y_[i]) / (y_[i + 1] - y_[i]);
-  // Newton, held in the bracket by bisection: a limited slope may vanish at a node.
+  // Newton's method, kept in the bracket by bisection: a limited slope may be zero at a node, and
+  // Newton's step would divide by it.
   for (int step = 0; step < 200 && low < high; ++step) {
     const Point point = at(x);
     const double excess = point.value - value;
