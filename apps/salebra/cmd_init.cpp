@@ -106,7 +106,7 @@ frequency = "20kHz"          # of the normal oscillation
 hold = "indentation"         # the mean indentation stays constant; "force" for a dead weight
 # amplitude = "small"        # the limit u_z -> 0, to compare with Eq. (16); default "finite"
 # relative_error = "5%"      # error allowed for each damping constant; cells are halved until it is met
-# intervals = 4                 # intervals between the contacts solved inside the oscillation: 4, 8, 16 or 32; 0: solve none, take the loss from the curve between loads
+# intervals = 4              # intervals between the contacts solved inside the oscillation: 4, 8, 16 or 32; 0: solve none, take the loss from the curve between loads
 # seam_error = "window"      # adds the error of continuing a scan periodically; or "free"
 )";
 

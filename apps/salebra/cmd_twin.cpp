@@ -78,7 +78,7 @@ std::string twin_text(const SurfaceTwin& twin) {
 }
 
 constexpr std::string_view list_heading =
-    R"(# Scans of one surface, each at a random index. Next: salebra twin {0} -o surface.h5
+    R"(# Scans of one surface, each at a random place. Next: salebra twin {0} -o surface.h5
 # Lengths are strings with a unit: "1.5um". A line that begins with "# " and a key is an option that is not set: remove
 # "# " to set it. Each scan needs an instrument. More keys, like the options of these names: pixel_size, lateral_unit,
 # channel, transpose, detrend, despike, crop = ["0um", "0um", "50um", "50um"], fill.

@@ -57,7 +57,7 @@ grid : Grid2D
 
 See Also
 --------
-boundary_element_contact_sets : the contact_sets of a surface.
+boundary_element_contact_sets : the contact sets of a surface.
 )")
       .def(
           "__init__",

@@ -82,15 +82,15 @@ Parameters
 ----------
 file : str or os.PathLike
 size_x, size_y : float, optional
-    Size in m, in index of the size in the file; required if the file has none.
+    Size in m, instead of the size in the file; required if the file has none.
 periodic : bool, optional
-    Whether the surface repeats itself, in index of the value in the file.
+    Whether the surface repeats itself, instead of the value in the file.
 height_unit : str
     Unit of the heights, such as "nm", for files that have none; empty: metres.
 transpose : bool
     Exchange x and y of the file, before all other options apply.
 pixel_size : float or (float, float), optional
-    Distance of points along x and y in m, in index of sizes.
+    Distance of points along x and y in m, instead of sizes.
 lateral_unit : str
     Unit of XYZ points, such as "um", for files that have none; empty: metres.
 despike : float, optional

@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view program = R"c(#include <math.h>
 #include <stddef.h>
 
-/* A contact between two steps: indentation, displacements along x and y, and where the springs of
-   each spring_depth are anchored. Copy it to come back to it; write it to a file to restart. */
+/* A contact between two steps: indentation, displacements along x and y, and where the springs
+   are anchored. Copy it to come back to it; write it to a file to restart. */
 typedef struct {
   double indentation, x, y;
   double anchor_x[@NAME@_springs], anchor_y[@NAME@_springs];
@@ -77,10 +77,10 @@ static inline void @NAME@_between(const double *value, const double *slope, doub
   }
 }
 
-/* Where spring_depth i begins; the lowest touches and parts as one, where its force is 0. */
+/* Where spring i begins; the lowest touches and parts as one, where its force is 0. */
 static inline double @NAME@_floor(int i) { return i > 0 ? @NAME@_node[i - 1] : @NAME@_depth[0]; }
 
-/* The stiffness of spring_depth i that touches at an indentation, where all springs have that of held, and
+/* The stiffness of spring i that touches at an indentation, where all springs have that of held, and
    its derivative. */
 static inline double @NAME@_touched(int i, double at, const double held[3], double *derivative) {
   *derivative = 0;
