@@ -61,11 +61,11 @@ double last_place(double value, double error, double unit) {
   return std::pow(10, std::floor(std::log10(std::abs(value / unit))) + 1 - digits);
 }
 
-std::string rounded(double value, double unit, double index) {
+std::string rounded(double value, double unit, double digit) {
   if (std::isnan(value)) return "n/a";
-  const int decimals = std::max(0, int(-std::floor(std::log10(index) + 1e-9)));
+  const int decimals = std::max(0, int(-std::floor(std::log10(digit) + 1e-9)));
   // Removes the sign of a zero.
-  return fmt::format("{:.{}f}", std::round(value / unit / index) * index + 0.0, decimals);
+  return fmt::format("{:.{}f}", std::round(value / unit / digit) * digit + 0.0, decimals);
 }
 
 std::string digits_of(double value, double error, double unit) {
@@ -135,11 +135,11 @@ std::string answer_table(const StudyResult& result, const StudySolution& answer)
         format_quantity(result.pressures[k], Dimension::pressure, 3),
         format_quantity(result.pressures[k] * result.grid.area(), Dimension::force, 3),
         digits_of(main.mean, main.error, unit)};
-    const double index = last_place(main.mean, main.error, unit);
+    const double digit = last_place(main.mean, main.error, unit);
     if (sample)
       row.push_back(std::isnan(main.low)
                         ? "n/a"
-                        : rounded(main.low, unit, index) + " … " + rounded(main.high, unit, index));
+                        : rounded(main.low, unit, digit) + " … " + rounded(main.high, unit, digit));
     row.push_back(std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a");
     if (answer.slips())
       row.push_back(std::isnan(answer.slip_share[k])

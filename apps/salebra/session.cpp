@@ -130,18 +130,18 @@ void Session::warn_of_few_cores() {
 bool Session::stopped() const { return !communicator().all_agree(!interrupted()); }
 
 WriteOptions Session::write_options() const {
-  const std::string index = communicator().alone() ? place_among_tasks() : "";
-  if (!index.empty() && !launch_.mpi.empty())
+  const std::string task = communicator().alone() ? place_among_tasks() : "";
+  if (!task.empty() && !launch_.mpi.empty())
     throw InvalidInput("--output",
                        fmt::format("would be written by each of several tasks: this process is {} "
                                    "but runs alone; start it with the mpirun of its own MPI",
-                                   index));
-  if (!index.empty())
+                                   task));
+  if (!task.empty())
     throw InvalidInput(
         "--output",
         fmt::format("would be written by each of several tasks: this process is {}; start only "
                     "one, or use salebra-mpi for one surface and study --shard for many",
-                    index));
+                    task));
   return {.overwrite = options_.overwrite};
 }
 

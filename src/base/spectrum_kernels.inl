@@ -84,13 +84,13 @@ struct Register {
   static constexpr int lanes = bytes / static_cast<int>(sizeof(Real)),
                        in_eight = 16 / lanes;  // registers per eight complex numbers
 
-  static SALEBRA_INLINE Vector load(const Real* offset) {
+  static SALEBRA_INLINE Vector load(const Real* address) {
     Vector numbers;
-    __builtin_memcpy(&numbers, offset, bytes);
+    __builtin_memcpy(&numbers, address, bytes);
     return numbers;
   }
-  static SALEBRA_INLINE void store(Vector numbers, Real* offset) {
-    __builtin_memcpy(offset, &numbers, bytes);
+  static SALEBRA_INLINE void store(Vector numbers, Real* address) {
+    __builtin_memcpy(address, &numbers, bytes);
   }
   // Exchanges real and imaginary parts.
   static SALEBRA_INLINE Vector swapped(Vector v) {

@@ -15,12 +15,12 @@ namespace {
 
 /// The member of a JSON object at the end of a path of names; nullptr if there is none.
 const Json* find(const Json& object, const std::vector<std::string>& path) {
-  const Json* location = &object;
+  const Json* inner = &object;
   for (const std::string& name : path) {
-    if (!location->is_object() || !location->contains(name)) return nullptr;
-    location = &(*location)[name];
+    if (!inner->is_object() || !inner->contains(name)) return nullptr;
+    inner = &(*inner)[name];
   }
-  return location;
+  return inner;
 }
 
 double number(const Json* value) {

@@ -59,14 +59,14 @@ class ShardRun {
  public:
   ShardRun(const std::vector<StudyConfiguration>& points, const Shard& shard, const StudyRun& run)
       : shard_(shard), run_(run), parts_(*run.parts) {
-    std::size_t location = 0;
+    std::size_t ordinal = 0;
     for (const StudyConfiguration& configuration : points) {
       StudyLoads loads = study_loads(configuration);
       if (run.on_warning) std::ranges::for_each(loads.warnings, run.on_warning);
       Point& point = points_.emplace_back(configuration, std::move(loads.pressures));
       for (const std::uint64_t seed : detail::seeds_of(configuration)) {
         const std::uint64_t key = StudyParts::key(configuration, seed);
-        if (shard.holds(location++))
+        if (shard.holds(ordinal++))
           pending_.push_back({points_.size() - 1, point.keys.size(), seed, key});
         point.keys.push_back(key);
       }

@@ -171,16 +171,16 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   if (!form)
     throw InvalidInput(path.string(),
                        "is not a surface twin; name a file that `salebra twin` wrote");
-  const std::string position = "twin/draws/";
+  const std::string draws_group = "twin/draws/";
   const bool table = *form == SpectrumForm::table;
   // Checks the sizes before reading, because a compressed file may contain more numbers than fit
   // into memory.
   const auto count_of = [&](const std::string& name) {
     std::size_t count = 1;
-    for (const Index extent : file.shape(position + name)) {
+    for (const Index extent : file.shape(draws_group + name)) {
       require(extent <= max_draws, path.string(), extent,
-              fmt::format("values of {}{} along one dimension must be at most {}", position, name,
-                          max_draws));
+              fmt::format("values of {}{} along one dimension must be at most {}", draws_group,
+                          name, max_draws));
       count *= static_cast<std::size_t>(extent);
     }
     return count;
@@ -188,33 +188,33 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const std::size_t knots_of_draw = count_of("knot"), values_of_draws = count_of("log_psd");
   require(table ? knots_of_draw >= 2 && knots_of_draw <= max_knots : knots_of_draw == 1,
           path.string(), knots_of_draw,
-          table ? fmt::format("knots in {}knot must be from 2 to {}", position, max_knots)
-                : fmt::format("knots in {}knot must be one for the form {}", position, *word));
+          table ? fmt::format("knots in {}knot must be from 2 to {}", draws_group, max_knots)
+                : fmt::format("knots in {}knot must be one for the form {}", draws_group, *word));
   const std::size_t count = values_of_draws / knots_of_draw;
   require(count > 0 && count * knots_of_draw == values_of_draws, path.string(), values_of_draws,
-          fmt::format("values of {}log_psd make no draws of {} knots", position, knots_of_draw));
+          fmt::format("values of {}log_psd make no draws of {} knots", draws_group, knots_of_draw));
   for (const auto& [name, member] : numbers_of_draw)
     require(count_of(name) == count, path.string(), count_of(name),
             fmt::format("values of {} belong to {} draws", name, count));
   // Reads numbers and checks that they lie between `low` and `high`. The limits used below include
   // all real surfaces and exclude overflow.
   const auto within = [&](const std::string& name, double low, double high) {
-    std::vector<double> values = file.numbers(position + name);
+    std::vector<double> values = file.numbers(draws_group + name);
     for (const double value : values)
       require(value >= low && value <= high, path.string(), value,
-              fmt::format("in {}{} must be from {:g} to {:g}", position, name, low, high));
+              fmt::format("in {}{} must be from {:g} to {:g}", draws_group, name, low, high));
     return values;
   };
   const std::vector<double> knots = within("knot", 1e-6, 1e15),
                             log_psd = within("log_psd", -400, 400);
   require(std::ranges::is_sorted(knots, std::less_equal()), path.string(), "",
-          fmt::format("has knots in {}knot that do not rise", position));
+          fmt::format("has knots in {}knot that do not rise", draws_group));
   std::vector<TwinDraw> draws(count);
   for (const auto& [name, member] : numbers_of_draw) {
     // A tabulated spectrum has neither a Hurst exponent nor a roll-off.
     const bool unused = table && (member == &TwinDraw::hurst || member == &TwinDraw::rolloff);
-    const std::vector<double> values = unused                       ? file.numbers(position + name)
-                                       : member == &TwinDraw::hurst ? within(name, -1, 3)
+    const std::vector<double> values = unused ? file.numbers(draws_group + name)
+                                       : member == &TwinDraw::hurst     ? within(name, -1, 3)
                                        : member == &TwinDraw::rms_slope ? within(name, 0, 1e6)
                                                                         : within(name, 1e-15, 1e6);
     for (std::size_t i = 0; i < count; ++i) draws[i].*member = values[i];

@@ -68,9 +68,9 @@ double along(const Surface& surface, Axis axis) {
         auto to = sums.begin();
         for (const Index lag : lags)
           for (Index piece = 0; piece < pieces; ++piece) {
-            const Index positions = n - 2 * lag;
-            *to++ += moments(heights.data(), lag + positions * piece / pieces,
-                             lag + positions * (piece + 1) / pieces, lag);
+            const Index triples = n - 2 * lag;
+            *to++ += moments(heights.data(), lag + triples * piece / pieces,
+                             lag + triples * (piece + 1) / pieces, lag);
           }
       });
   std::vector<double> mine(count * of_blocks.size());

@@ -36,7 +36,7 @@ using Points = Eigen::Array<double, 4, 1>;
 /// the heights of these points in the second of three rows, and to the same columns of the rows
 /// before and after it. NaN if a neighbour is undefined.
 Points medians_of_neighbours(const std::array<const double*, 3>& rows) {
-  const auto at = [](const double* index) { return Points(Eigen::Map<const Points>(index)); };
+  const auto at = [](const double* first) { return Points(Eigen::Map<const Points>(first)); };
   const auto [before, here, behind] = rows;
   std::array<Points, 8> sorted{at(before - 1), at(before),     at(before + 1), at(here - 1),
                                at(here + 1),   at(behind - 1), at(behind),     at(behind + 1)};

@@ -271,19 +271,18 @@ Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t s
     Eigen::VectorXd z(size);
     for (Index p = 0; p < size; ++p)
       z[p] = gaussian_pair(seed, number, static_cast<std::int32_t>(p), 111).first;
-    const RandomPair position = uniform_pair(seed, number, 0, 112),
+    const RandomPair drawn = uniform_pair(seed, number, 0, 112),
                      shift = uniform_pair(seed, number, 1, 112);
     const auto chosen = [](const std::vector<const TwinFit*>& fits, double at) {
       return fits[std::min(fits.size() - 1,
                            static_cast<std::size_t>(at * static_cast<double>(fits.size())))];
     };
     Eigen::VectorXd at = one.fit.parameters;
-    if (!long_ends.empty()) at = chosen(long_ends, position.first)->parameters;
+    if (!long_ends.empty()) at = chosen(long_ends, drawn.first)->parameters;
     Eigen::VectorXd moved = about_fit.lazyProduct(z);
     if (!long_ends.empty()) moved[TwinLaw::rolloff] = 0.2 * (shift.first - 0.5);
     if (!short_ends.empty()) {
-      at[model.law().cutoff()] =
-          chosen(short_ends, position.second)->parameters[model.law().cutoff()];
+      at[model.law().cutoff()] = chosen(short_ends, drawn.second)->parameters[model.law().cutoff()];
       moved[model.law().cutoff()] = 0.2 * (shift.second - 0.5);
     }
     at += moved;

@@ -268,10 +268,11 @@ void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::
       (*slopes)(row, own.tail) = factor * tail(parameters, group, bin);
       // Derivative of the tail's weight with respect to ln λ_s, the cut-off wavelength: the weight
       // depends on the wave number relative to the cut-off.
-      const double position = data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
-      if (position > 0.90 && position < 0.96)
+      const double cutoff_waves =
+          data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
+      if (cutoff_waves > 0.90 && cutoff_waves < 0.96)
         (*slopes)(row, law_.cutoff()) +=
-            factor * data.noise * position / 0.06 *
+            factor * data.noise * cutoff_waves / 0.06 *
             std::exp(parameters[own.tail] -
                      5 * std::log(data.wavenumber[bin] / data.tail_reference));
     }

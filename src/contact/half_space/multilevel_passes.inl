@@ -18,18 +18,18 @@ SALEBRA_INLINE const float* cell(const HaloView& field, Length row, Length colum
   return field.first + row * field.stride + column;
 }
 
-SALEBRA_INLINE Floats load(const float* index) {
+SALEBRA_INLINE Floats load(const float* from) {
   Floats numbers;
-  __builtin_memcpy(&numbers, index, sizeof(numbers));
+  __builtin_memcpy(&numbers, from, sizeof(numbers));
   return numbers;
 }
 
 // Stores at `index` those of 16 numbers that lie within the row, of which `width` cells remain.
-SALEBRA_INLINE void store(const float* numbers, Length width, float* index) {
+SALEBRA_INLINE void store(const float* numbers, Length width, float* to) {
   if (width >= tile_width) {
-    __builtin_memcpy(index, numbers, tile_width * sizeof(float));
+    __builtin_memcpy(to, numbers, tile_width * sizeof(float));
   } else {
-    for (Length k = 0; k < width; ++k) index[k] = numbers[k];
+    for (Length k = 0; k < width; ++k) to[k] = numbers[k];
   }
 }
 
@@ -107,10 +107,10 @@ SALEBRA_INLINE void interpolated(const HaloView& coarse, const Shift& shift, con
   }
   const Floats after_weight = 1.0f - before_weight - weight;
   for (int k = 0; k < registers_of_tile; ++k) {
-    const float* index = centre + k * (lane_count / 2);
-    const Floats here = load(index), after = load(index + coarse.stride);
+    const float* from = centre + k * (lane_count / 2);
+    const Floats here = load(from), after = load(from + coarse.stride);
     const Floats sum = x % 2 != 0 ? 0.5f * (here + after)
-                                  : 0.125f * (load(index - coarse.stride) + after) + 0.75f * here;
+                                  : 0.125f * (load(from - coarse.stride) + after) + 0.75f * here;
     const Floats numbers = before_weight * twice<0>(sum, EachLane{}) +
                            weight * twice<1>(sum, EachLane{}) +
                            after_weight * twice<2>(sum, EachLane{});
