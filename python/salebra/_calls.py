@@ -9,6 +9,7 @@ results that did not converge, and makes objects without a description picklable
 from __future__ import annotations
 
 import __future__
+import contextlib
 import difflib
 import errno
 import functools
@@ -249,22 +250,16 @@ FORMER = {  # names of version 1.0: classes, functions, keywords, attributes
 }  # fmt: skip
 
 
-def _no_attribute(self: Any, name: str) -> Any:
-    now = FORMER.get(name)
-    here = [one for one in now.split(" or ") if hasattr(type(self), one)] if now else []
-    former = f"; {name} is now {here[0]}" if here else ""
-    raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'{former}", name=name, obj=self)
+def _attribute(own: Callable[[Any, str], Any] | None) -> Callable[[Any, str], Any]:
+    """A __getattr__ that tries the one of the class, if it has one, and names the present name of a former one."""
 
-
-def _attribute_or_former(own: Callable[[Any, str], Any]) -> Callable[[Any, str], Any]:
     def attribute(self: Any, name: str) -> Any:
-        try:
-            return own(self, name)
-        except AttributeError:
-            if name in FORMER:
-                now = FORMER[name].split(" or ")[0]
-                raise AttributeError(f"'{type(self).__name__}' has no attribute '{name}'; {name} is now {now}", name=name, obj=self) from None
-            raise
+        with contextlib.suppress(AttributeError):
+            if own:
+                return own(self, name)
+        here = [now for now in FORMER.get(name, "").split(" or ") if now and hasattr(type(self), now)]
+        former = f"; {name} is now {here[0]}" if here else ""
+        raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'{former}", name=name, obj=self)
 
     return attribute
 
@@ -511,7 +506,7 @@ def _answer_class(kind: Any) -> None:
         kind.__reduce__, kind.__eq__, kind.__hash__ = _reduce, _equal, _hash_of_call
     elif "__eq__" in own and "__hash__" not in own:
         kind.__hash__ = None if name in ("Surface", "NonGaussianSurface") else _hash
-    kind.__getattr__ = _attribute_or_former(own["__getattr__"]) if "__getattr__" in own else _no_attribute
+    kind.__getattr__ = _attribute(own.get("__getattr__"))
     if "__repr__" not in own:
         kind.__repr__ = _show.text
     kind._repr_html_ = _show.html

@@ -52,7 +52,7 @@ detail::SelfAffineDensity windowed_density(double step, double q_short) {
   return [=](double q, double hurst, double q_rolloff) {
     // Without a plateau the power law begins at a wave much longer than the profile.
     const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * step;
-    const auto at = [&](double index) { return profile_density(index, hurst, begin, q_short); };
+    const auto at = [&](double q) { return profile_density(q, hurst, begin, q_short); };
     // At this wave number the window changes the density by less than the bins can resolve.
     if (q > 24 * step) return at(q);
     return (at(q - step) + 4 * at(q) + at(q + step)) / 6;
