@@ -9,7 +9,6 @@ results that did not converge, and makes objects without a description picklable
 from __future__ import annotations
 
 import __future__
-import contextlib
 import difflib
 import errno
 import functools
@@ -254,12 +253,15 @@ def _attribute(own: Callable[[Any, str], Any] | None) -> Callable[[Any, str], An
     """A __getattr__ that tries the one of the class, if it has one, and names the present name of a former one."""
 
     def attribute(self: Any, name: str) -> Any:
-        with contextlib.suppress(AttributeError):
+        missing = f"'{type(self).__name__}' object has no attribute '{name}'"
+        try:
             if own:
                 return own(self, name)
+        except AttributeError as error:
+            missing = str(error)
         here = [now for now in FORMER.get(name, "").split(" or ") if now and hasattr(type(self), now)]
         former = f"; {name} is now {here[0]}" if here else ""
-        raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'{former}", name=name, obj=self)
+        raise AttributeError(missing + former, name=name, obj=self)
 
     return attribute
 
