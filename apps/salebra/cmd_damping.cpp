@@ -28,7 +28,7 @@ namespace {
 
 struct DampingArguments {
   LawOptions law;
-  std::string amplitude = "finite", hold = "indentation", trajectory;
+  std::string amplitude = "finite", hold = "auto", trajectory;
   MaterialOptions material;
   MotionOptions motion;
   std::vector<double> force_amplitude;

@@ -26,7 +26,7 @@ struct SlidingArguments {
   MaterialOptions material;
   SlidingProblem sliding;
   FrequencyOptions frequency;
-  std::string hold = "indentation", start = "rest";
+  std::string hold = "auto", start = "rest";
   BodyOptions body;
   std::optional<double> support_damping, tolerance;
   std::optional<int> steps, max_cycles;

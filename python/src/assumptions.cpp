@@ -40,7 +40,7 @@ void warn_of_held_indentation(const ContactLaw& law, double indentation, double 
   DampingResult mean;
   mean.force = law.force(indentation);
   mean.mean_force = mean_force;
-  if (const auto warning = detail::warning_of_held_indentation({}, {&mean, 1})) warn_user(*warning);
+  if (const auto warning = detail::warning_of_held_indentation({&mean, 1})) warn_user(*warning);
 }
 
 void bind_contact_parameters(nb::module_& m) {

@@ -64,7 +64,7 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
 }
 
 void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results) {
-  if (const auto warning = detail::warning_of_held_indentation(hold, results)) warn_user(*warning);
+  if (const auto warning = detail::warning_of_held_indentation(results)) warn_user(*warning);
 }
 
 /// A curve of results without its results: the quantity that differs from case to case, and its
@@ -183,7 +183,7 @@ void bind_theorem(nb::module_& m) {
         return bound;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
       nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
       nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
       R"(Energy lost per cycle by an oscillating contact, at any amplitude; with slip if `parameters` have a coefficient of friction.
@@ -274,7 +274,7 @@ InvalidInput
         return curve_of;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
       nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
       nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
       nb::arg("assumptions") = true, nb::arg("progress") = false,
@@ -343,7 +343,7 @@ void bind_damper(nb::module_& m) {
       },
       nb::arg("law"), nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
       nb::arg("mass"), nb::arg("spring_stiffness") = 0.0, nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto", nb::arg("tolerance") = 1e-10,
       "Decay of a mass (kg) on a spring (N/m) and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = "
       "0.");
 
@@ -364,7 +364,7 @@ void bind_damper(nb::module_& m) {
       },
       nb::arg("law"), nb::arg("normal_amplitudes"), nb::arg("angular_frequencies"), nb::kw_only(),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      nb::arg("hold") = "auto", nb::arg("tolerance") = 1e-10,
       "The damping constant over amplitudes (m) and angular frequencies (rad/s).");
   m.def(
       "stabilising_amplitude",
@@ -377,7 +377,7 @@ void bind_damper(nb::module_& m) {
       },
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
       nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      nb::arg("hold") = "auto", nb::arg("tolerance") = 1e-10,
       "Minimum u_z, m, at which γ >= falling_slope (N s/m): an estimate, without slip, of the "
       "amplitude "
       "that prevents stick–slip of a slider whose friction falls with velocity. NaN if "

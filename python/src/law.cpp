@@ -26,8 +26,8 @@ void bind_law(nb::module_& m) {
       m, "ContactLaw", nb::dynamic_attr(),
       R"(Force–indentation law of a contact: the only input of the contact to the damping problem.
 
-The indentation δ increases as the bodies approach. Methods take a number or an array and return the same shape. Outside
-[lowest_indentation, highest_indentation] they raise InvalidInput; below first touch, laws with a first touch return 0.
+The indentation δ increases as the bodies approach. Methods take a number or an array and return the same shape. Above
+highest_indentation they raise InvalidInput; below first_touch they return 0.
 )");
   number_method(law, "force", "indentation", &ContactLaw::force, "F(δ), N.");
   number_method(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
@@ -44,7 +44,10 @@ The indentation δ increases as the bodies approach. Methods take a number or an
   const auto length = [&law](auto member, const char* name, const char* meaning) {
     described_property(law, member, Kept{name, meaning, Dimension::length});
   };
-  length(&ContactLaw::lowest_indentation, "lowest_indentation", "−∞ unless the law is a table");
+  length(&ContactLaw::first_touch, "first_touch",
+         "where the bodies touch first; −∞ for a law with a force at every indentation");
+  length(&ContactLaw::lowest_indentation, "lowest_indentation",
+         "where the samples of a table begin; −∞ for other laws");
   length(&ContactLaw::highest_indentation, "highest_indentation", "+∞ unless the law is a table");
   length(&ContactLaw::break_points, "break_points",
          "indentations at which F, K, K_t or a first derivative jumps");

@@ -78,7 +78,7 @@ void bind_functions(nb::module_& m) {
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude") = 0.0, nb::arg("angular_frequency") = 0.0,
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("averaged") = false, nb::arg("hold") = "indentation", nb::arg("start") = "rest",
+      nb::arg("averaged") = false, nb::arg("hold") = "auto", nb::arg("start") = "rest",
       nb::arg("steps") = 32, nb::arg("tolerance") = 1e-2, nb::arg("max_cycles") = 200,
       nb::arg("progress") = false,
       R"(Stick–slip or steady sliding of a slider on a contact whose indentation is δ0 − u_z cos ωt.
@@ -123,7 +123,7 @@ progress : bool or callable
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      nb::arg("hold") = "auto", nb::arg("steps") = 32,
       "Tests whether small disturbances of steady sliding grow, by the full equation of motion and "
       "by "
       "dT̄/dv + c − b; indentation (m) or force (N), one of the two.");
@@ -141,7 +141,7 @@ progress : bool or callable
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("angular_frequency"), nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto", nb::arg("steps") = 32,
       "Minimum normal amplitude (m) at which small disturbances of sliding decay; indentation "
       "(m) or force (N), one of the two.");
   m.def(
@@ -159,7 +159,7 @@ progress : bool or callable
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude"), nb::arg("max_angular_frequency"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      nb::arg("hold") = "auto", nb::arg("steps") = 32,
       "Minimum angular frequency (rad/s) at which small disturbances of sliding decay; "
       "indentation (m) or force (N), one of the two.");
 }

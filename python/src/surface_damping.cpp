@@ -118,7 +118,7 @@ void bind_surface_damping(nb::module_& m) {
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve") = nb::none(),
       nb::kw_only(), nb::arg("pressures") = nb::none(), nb::arg("parameters") = nb::none(),
-      nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
+      nb::arg("hold") = "auto", nb::arg("amplitude") = "finite",
       nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
       nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = Loss::unknown,
       nb::arg("excursion") = Loss::unknown, nb::arg("progress") = false,

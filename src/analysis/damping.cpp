@@ -46,6 +46,17 @@ std::vector<Case> cases_of(const std::vector<OperatingPoint>& points,
   return cases;
 }
 
+// What the oscillation keeps in all cases: the mean force if hold_of() chooses it for one of them,
+// so that the results of a range of loads or amplitudes can be compared.
+Hold hold_of_all(const ContactLaw& law, const std::vector<Case>& cases, Hold wanted) {
+  const bool force = std::ranges::any_of(cases, [&](const Case& one) {
+    const double amplitude =
+        std::visit([](const auto& motion) { return motion.normal_amplitude; }, one.motion);
+    return hold_of(law, one.point, amplitude, wanted) == Hold::force;
+  });
+  return force ? Hold::force : Hold::indentation;
+}
+
 DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOptions& options) {
   if (!one.force_amplitude)
     return std::visit(
@@ -332,10 +343,11 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   }
   DampingSolution solution{solve(std::move(problem.contact), context)};
   const ContactLaw& law = *solution.contact.law;
-  const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
   const std::vector<Case> cases = cases_of(solution.contact.points, problem);
+  problem.hold = hold_of_all(law, cases, problem.hold);
+  const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
   solution.results = results_of(law, cases, options, context);
-  if (const auto warning = detail::warning_of_held_indentation(problem.hold, solution.results))
+  if (const auto warning = detail::warning_of_held_indentation(solution.results))
     solution.warnings.push_back(*warning);
   std::string unknown;  // why the loss is unknown; the first reason found serves all cases
   if (surface) resolve_on_surface(problem, pressures, material, context, solution);
@@ -492,7 +504,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
                        solution.contact.parameters_at(problem.parameters, indentations.back(),
                                                       indentations.back() + amplitude)));
   }
-  if (const auto warning = detail::warning_of_held_indentation(problem.hold, rested))
+  if (const auto warning = detail::warning_of_held_indentation(rested))
     solution.warnings.push_back(*warning);
   std::optional<SurfaceDamper> of_surface;
   if (solution.contact.surface) of_surface.emplace(problem, material, context, solution);

@@ -159,7 +159,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
     DampingResult mean;
     mean.force = solution.state.force;
     mean.mean_force = mean_force_of_cycle(law, indentation, problem.normal_amplitude);
-    if (const auto warning = detail::warning_of_held_indentation({}, {&mean, 1}))
+    if (const auto warning = detail::warning_of_held_indentation({&mean, 1}))
       solution.contact.warnings.push_back(*warning);
   }
   if (problem.direct_steps) {

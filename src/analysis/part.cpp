@@ -29,6 +29,7 @@ class LawOfPart final : public ContactLaw {
   double stiffness_ratio(double indentation) const override {
     return sample_->stiffness_ratio(indentation);
   }
+  double first_touch() const override { return sample_->first_touch(); }
   double lowest_indentation() const override { return sample_->lowest_indentation(); }
   double highest_indentation() const override { return sample_->highest_indentation(); }
   double indentation_of(double force) const override {

@@ -91,7 +91,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
       throw NotConverged(fmt::format("sliding: {} of {} integrals did not reach the tolerance",
                                      lost, found.size()));
   }
-  if (const auto warning = detail::warning_of_held_indentation(problem.hold, means))
+  if (const auto warning = detail::warning_of_held_indentation(means))
     solution.warnings.push_back(*warning);
   if (problem.excursions.empty()) return solution;
   std::vector<double> velocities;

@@ -5,6 +5,9 @@
 #include <salebra/damping/closed_form.hpp>
 #include <variant>
 
+#include "damping/continued_law.hpp"
+#include "damping/max_motion.hpp"
+
 namespace salebra {
 
 std::string why_loss_unknown(const Motion& motion, const ContactParameters& parameters,
@@ -37,6 +40,12 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.relaxation_work = loss.relaxation_work;
     result.slip_work = loss.slip_work;
   };
+  // Returns the loss of a law about its mean indentation.
+  const auto work_of = [&](const ContactLaw& one, double indentation) {
+    if (const auto* drag = std::get_if<Drag>(&motion))
+      return loss_with_slip(one, indentation, *drag, friction, parameters.excursion).work_per_cycle;
+    return cycle_of(one, motion, indentation, steps, friction, context).loss.work_per_cycle;
+  };
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     take(loss_with_slip(law, result.indentation, *drag, friction, parameters.excursion));
     result.power = closed_form::power(result.work_per_cycle, *drag);
@@ -48,6 +57,16 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.storage_stiffness = cycle.storage_stiffness;
     result.loss_factor = cycle.loss_factor;
   }
+  // Springs slip below the oscillation, and their law below the samples of a table is a guess.
+  if (!std::isfinite(law.lowest_indentation())) return;
+  const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+  const double indentation = result.hold == Hold::force
+                                 ? indentation_at_mean_force(other, result.mean_force, amplitude)
+                                 : result.indentation;
+  result.error_estimate += detail::change_below_table(law, result.work_per_cycle,
+                                                      work_of(other, indentation)) *
+                           result.work_per_cycle;
 }
 
 DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,

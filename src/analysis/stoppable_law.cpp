@@ -34,6 +34,7 @@ class StoppableLaw final : public ContactLaw {
   double stiffness_ratio(double indentation) const override {
     return seen().stiffness_ratio(indentation);
   }
+  double first_touch() const override { return law_->first_touch(); }
   double lowest_indentation() const override { return law_->lowest_indentation(); }
   double highest_indentation() const override { return law_->highest_indentation(); }
   double indentation_of(double force) const override { return seen().indentation_of(force); }

@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "base/special_values.hpp"
+#include "continued_law.hpp"
 #include "judge.hpp"
 #include "max_motion.hpp"
 #include "spring_loss.hpp"
@@ -21,6 +22,7 @@
 namespace salebra {
 namespace {
 
+using detail::ContinuedLaw;
 using detail::infinity;
 using detail::judge;
 using detail::unknown;
@@ -31,68 +33,6 @@ using std::numbers::pi;
 constexpr double no_loss = 1e-7;
 // Samples per period: the ratio of two losses on one path is then accurate to 1e-4.
 constexpr int steps = 360;
-
-// Continues a table below its lowest and above its highest indentation δ1 by F = F1 exp((δ − δ1)/l)
-// with l = F1/K1, where F1 and K1 are F and K at δ1. K_t grows by the same exponential. Laws that
-// are not tables stay as they are.
-class ContinuedLaw final : public ContactLaw {
- public:
-  explicit ContinuedLaw(const ContactLaw& law)
-      : ContactLaw(law.modulus_ratio()),
-        law_(law),
-        low_(law, law.lowest_indentation()),
-        // Above its highest indentation the law of an indenter is not continued: the contact may
-        // have reached the side of the indenter, or its shape is unknown there.
-        high_(law, std::isfinite(low_.end) ? law.highest_indentation() : infinity) {}
-  double force(double indentation) const override {
-    const End* end = beyond(indentation);
-    return end ? end->force * end->growth(indentation) : law_.force(indentation);
-  }
-  double normal_stiffness(double indentation) const override {
-    const End* end = beyond(indentation);
-    return end ? end->force / end->length * end->growth(indentation)
-               : law_.normal_stiffness(indentation);
-  }
-  double force_curvature(double indentation) const override {
-    const End* end = beyond(indentation);
-    return end ? end->force / (end->length * end->length) * end->growth(indentation)
-               : law_.force_curvature(indentation);
-  }
-  double tangential_stiffness(double indentation) const override {
-    const End* end = beyond(indentation);
-    return end ? end->stiffness * end->growth(indentation) : law_.tangential_stiffness(indentation);
-  }
-  double tangential_curvature(double indentation) const override {
-    const End* end = beyond(indentation);
-    return end ? end->stiffness / end->length * end->growth(indentation)
-               : law_.tangential_curvature(indentation);
-  }
-  double stiffness_ratio(double indentation) const override {
-    return law_.stiffness_ratio(indentation);
-  }
-  double highest_indentation() const override {
-    return std::isfinite(low_.end) ? infinity : law_.highest_indentation();
-  }
-  double indentation_of(double force) const override { return law_.indentation_of(force); }
-  std::vector<double> break_points() const override { return law_.break_points(); }
-
- private:
-  struct End {
-    End(const ContactLaw& law, double at) : end(at) {
-      if (!std::isfinite(at)) return;
-      force = law.force(at);
-      length = force / law.normal_stiffness(at);
-      stiffness = law.tangential_stiffness(at);
-    }
-    double growth(double indentation) const { return std::exp((indentation - end) / length); }
-    double end, force = 0, length = 1, stiffness = 0;
-  };
-  const End* beyond(double indentation) const {
-    return indentation < low_.end ? &low_ : indentation > high_.end ? &high_ : nullptr;
-  }
-  const ContactLaw& law_;
-  End low_, high_;
-};
 
 // The contact law of only those springs of `law` that touch at an indentation above `bottom`, and
 // so open in each cycle. Only F, K_t, K_t/K and the range of indentations of this law are used.

@@ -90,11 +90,13 @@ double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
                              const DampingOptions& options) {
   require_positive(falling_slope, "falling_slope");
   require_positive(max_amplitude, "max_amplitude");
-  if (options.hold == Hold::indentation)
+  DampingOptions held = options;
+  held.hold = hold_of(law, point, max_amplitude, options.hold);
+  if (held.hold == Hold::indentation)
     max_amplitude =
         std::min(max_amplitude, detail::possible_amplitude(law, indentation_of(law, point)));
   auto excess = [&](double amplitude) {
-    return damper_at(law, point, amplitude, angular_frequency, options).damping_constant -
+    return damper_at(law, point, amplitude, angular_frequency, held).damping_constant -
            falling_slope;
   };
   // Searches the smallest amplitude that gives the required γ. γ grows in proportion to u_z at

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The theorem W = ½∮s² dK_t for any contact law, at a held mean indentation or a held mean force
 // (s: stretch of a spring where it separates).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <sstream>
 
 #include "base/numerics/quadrature.hpp"
 #include "base/special_values.hpp"
+#include "continued_law.hpp"
 #include "max_motion.hpp"
 #include "sweep_breaks.hpp"
 
@@ -119,17 +123,25 @@ void check(const DampingOptions& options) {
           "must lie between 1e-13 and 1e-2");
 }
 
-void require_covered(const ContactLaw& law, double mean_indentation, double amplitude) {
-  const double low = law.lowest_indentation(), high = law.highest_indentation();
-  const double slack = std::isfinite(high - low) ? 1e-12 * (high - low) : 0;
-  if (mean_indentation - amplitude >= low - slack && mean_indentation + amplitude <= high + slack)
-    return;
-  std::ostringstream constraint;
-  constraint.precision(9);
-  constraint << "m about the indentation " << mean_indentation << " m leaves the law's range ["
-             << low << ", " << high << "] m; reduce the amplitude"
-             << (std::isfinite(low) ? ", or give a curve that covers the motion" : "");
-  require(false, "normal_amplitude", amplitude, constraint.str());
+// Throws if a motion up to the indentation `highest` leaves the range of a table. The message names
+// the force that the table has to reach. It estimates this force with the exponential continuation
+// of the table.
+void require_covered(const ContactLaw& law, double highest, double amplitude) {
+  const double end = law.highest_indentation();
+  const double slack = std::isfinite(end) ? 1e-12 * std::abs(end) : 0;
+  if (highest <= end + slack) return;
+  if (!std::isfinite(law.lowest_indentation())) {
+    std::ostringstream constraint;
+    constraint.precision(9);
+    constraint << "m presses to the indentation " << highest << " m, but the law ends at " << end
+               << " m; reduce the amplitude";
+    require(false, "normal_amplitude", amplitude, constraint.str());
+  }
+  require(false, "normal_amplitude", amplitude,
+          fmt::format("m presses up to about {}, but the curve ends at {}; extend the curve to this "
+                      "load, or reduce the amplitude",
+                      format_quantity(detail::ContinuedLaw(law).force(highest), Dimension::force, 3),
+                      format_quantity(law.force(end), Dimension::force, 3)));
 }
 
 // Throws if the force at the largest indentation overflows, since losses would be NaN or wrong.
@@ -162,7 +174,7 @@ struct NormalCycle {
 };
 
 double mean_of_force(const ContactLaw& law, double mean_indentation, double amplitude) {
-  require_covered(law, mean_indentation, amplitude);
+  require_covered(law, mean_indentation + amplitude, amplitude);
   auto force = [&](double angle) {
     return law.force(mean_indentation + amplitude * std::cos(angle));
   };
@@ -227,15 +239,24 @@ double settled_indentation(const ContactLaw& law, const OperatingPoint& point) {
 void set_finite(DampingResult& result, const ContactLaw& law, double middle, const Kernel& kernel,
                 double tolerance) {
   const double amplitude = kernel.normal_amplitude;
-  require_covered(law, middle, amplitude);
+  require_covered(law, middle + amplitude, amplitude);
   require_representable(law, middle, amplitude);
   set_state(result, law, middle);
   result.mean_force = mean_of_force(law, middle, amplitude);
+  result.max_force = law.force(middle + amplitude);
+  result.contact_time = contact_time(law, middle, amplitude);
   const NormalCycle cycle{
       [&](double angle) { return law.tangential_stiffness(middle + amplitude * std::cos(angle)); },
       break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
       law.tangential_stiffness(middle - amplitude), law.tangential_stiffness(middle + amplitude)};
   set_work(result, work_factor(cycle, kernel, tolerance), kernel);
+}
+
+// The loss in a measure that is known for every motion: γ also if the tangential motion is 0, W if
+// ω is unknown.
+double measure_of(const DampingResult& result) {
+  return std::isnan(result.damping_constant_without_slip) ? result.work_per_cycle_without_slip
+                                                          : result.damping_constant_without_slip;
 }
 
 DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, const Kernel& kernel,
@@ -248,17 +269,29 @@ DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, con
   if (options.amplitude == Amplitude::small) {
     detail::require_possible(law, settled, 0);
     set_state(result, law, settled);
-    result.mean_force = result.force;
+    result.mean_force = result.max_force = result.force;
+    result.contact_time = 1;
     set_work(result, {small_factor, 0, true}, kernel);
   } else {
-    const bool mean_force = options.hold == Hold::force;
+    result.hold = hold_of(law, point, amplitude, options.hold);
+    const bool mean_force = result.hold == Hold::force;
     const auto middle_at = [&](double one) {
       if (!mean_force) return settled;
       return indentation_at_mean_force(law, point.load_given() ? point.value : law.force(settled),
                                        one);
     };
-    detail::require_possible(law, settled, amplitude, middle_at, options.hold);
+    detail::require_possible(law, settled, amplitude, middle_at, result.hold);
     set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
+    if (detail::reaches_below_table(law, result.indentation - amplitude)) {
+      const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+      DampingResult by_other;
+      set_finite(by_other, other,
+                 mean_force ? indentation_at_mean_force(other, result.mean_force, amplitude)
+                            : settled,
+                 kernel, 1e-7);
+      const double change = detail::change_below_table(law, measure_of(result), measure_of(by_other));
+      result.error_estimate += change * std::abs(result.work_per_cycle);
+    }
   }
   result.small_amplitude_work = small_factor * kernel.square_velocity;
   return result;
@@ -277,10 +310,13 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
     return law.tangential_stiffness(law.indentation_of(std::max(force, least)));
   };
   DampingResult result;
-  set_state(result, law, law.indentation_of(mean_force));
+  set_state(result, law, indentation_of(law, at_force(mean_force)));
   detail::require_possible(law, result.indentation,
                            law.indentation_of(mean_force + force_amplitude) - result.indentation);
   result.mean_force = mean_force;
+  result.max_force = mean_force + force_amplitude;
+  result.contact_time = 1;
+  result.hold = Hold::force;
   kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
   const double small_factor = small_amplitude_factor(law, result.force_curvature, kernel);
   if (options.amplitude == Amplitude::small) {
@@ -324,7 +360,30 @@ double indentation_of(const ContactLaw& law, const OperatingPoint& point) {
   if (point.control == ControlQuantity::indentation) return point.value;
   require(point.control == ControlQuantity::normal_force, name_of(point.control), point.value,
           "means nothing to a contact law; give a force or an indentation");
+  if (const double lowest = law.lowest_indentation(); std::isfinite(lowest)) {
+    const double low = law.force(lowest), high = law.force(law.highest_indentation());
+    // The force of a sample may differ from that of the law by round-off.
+    constexpr double slack = 1e-9;
+    require(!(point.value < (1 - slack) * low), "force", point.value,
+            fmt::format("lies outside the curve's range [{:.12g}, {:.12g}] N; choose a force within "
+                        "it, or give a curve that covers it",
+                        low, high));
+  }
   return law.indentation_of(point.value);
+}
+
+Hold hold_of(const ContactLaw& law, const OperatingPoint& point, double normal_amplitude,
+             Hold wanted) {
+  if (wanted != Hold::automatic) return wanted;
+  const bool lifts_off =
+      point.load_given() && indentation_of(law, point) - normal_amplitude < law.first_touch();
+  return lifts_off ? Hold::force : Hold::indentation;
+}
+
+double contact_time(const ContactLaw& law, double mean_indentation, double normal_amplitude) {
+  const double touch = law.first_touch();
+  if (!(normal_amplitude > 0)) return mean_indentation > touch ? 1 : 0;
+  return std::acos(std::clamp((touch - mean_indentation) / normal_amplitude, -1.0, 1.0)) / pi;
 }
 
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
@@ -336,18 +395,21 @@ double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, doubl
 
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double amplitude) {
   require_positive(mean_force, "force");
-  const double settled = law.indentation_of(mean_force);
+  const double settled = indentation_of(law, at_force(mean_force));
   if (amplitude == 0) return settled;
   // F grows with δ, so F(δ0 − u_z) <= mean force <= F(δ0 + u_z). The mean indentation δ0 therefore
   // differs by at most u_z from the indentation without oscillation.
-  const double low = std::max(settled - amplitude, law.lowest_indentation() + amplitude);
+  const double low = settled - amplitude;
   const double high = std::min(settled + amplitude, law.highest_indentation() - amplitude);
-  if (!(low <= high)) require_covered(law, settled, amplitude);
   auto excess = [&](double indentation) {
     return mean_of_force(law, indentation, amplitude) - mean_force;
   };
-  if (!(excess(low) <= 0)) require_covered(law, low - amplitude, amplitude);
-  if (!(excess(high) >= 0)) require_covered(law, high + amplitude, amplitude);
+  if (!(low <= high) || !(excess(high) >= 0)) {
+    // The table ends below the motion. Its continuation says which load is needed.
+    const detail::ContinuedLaw further(law);
+    require_covered(law, indentation_at_mean_force(further, mean_force, amplitude) + amplitude,
+                    amplitude);
+  }
   const double indentation = detail::find_root(excess, low, high);
   detail::require_possible(
       law, settled, amplitude, [&](double) { return indentation; }, Hold::force);

@@ -24,7 +24,7 @@ std::string in_words(double value, Dimension dimension) {
 // = K²; NaN for other laws. It tests numbers and not the class, because a law may be wrapped in
 // another.
 double decay_length_of(const ContactLaw& law, double position) {
-  if (std::isfinite(law.lowest_indentation())) return unknown;
+  if (std::isfinite(law.first_touch())) return unknown;
   const auto is_exponential = [&](double at) {
     const double stiffness = law.normal_stiffness(at);
     return std::abs(law.force(at) * law.force_curvature(at) / (stiffness * stiffness) - 1) < 1e-12;
@@ -118,13 +118,26 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
     require_possible_exponential(length, rest, mean_indentation, amplitude, "");
 }
 
-std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
-                                                       std::span<const DampingResult> results) {
+bool reaches_below_table(const ContactLaw& law, double lowest) {
+  const double end = law.lowest_indentation();
+  return std::isfinite(end) && lowest < end - 1e-12 * std::abs(end);
+}
+
+double change_below_table(const ContactLaw& law, double loss, double loss_by_exponential) {
+  const double change = loss == loss_by_exponential ? 0 : std::abs(loss_by_exponential / loss - 1);
+  if (change <= max_change_below) return change;
+  throw InvalidInput(
+      "curve", fmt::format("begins at {}, and the part of the motion below this load decides on the "
+                           "loss; extend the curve to lower loads, or reduce the amplitude",
+                           in_words(law.force(law.lowest_indentation()), Dimension::force)));
+}
+
+std::optional<std::string> warning_of_held_indentation(std::span<const DampingResult> results) {
   constexpr double max_ratio = 2;
-  if (hold == Hold::force) return {};
   double worst = max_ratio;
   std::optional<std::string> warning;
   for (const DampingResult& one : results) {
+    if (one.hold == Hold::force) continue;
     // mean_force/force is infinite if the contact is open without oscillation, and NaN if it never
     // touches.
     const double ratio = one.mean_force / one.force;
@@ -132,10 +145,9 @@ std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
     worst = ratio;
     warning = fmt::format(
         "holding the mean indentation raises the mean force to {} from {}{}; a preloaded machine "
-        "holds the mean force{}",
+        "holds the mean force (`hold` force)",
         in_words(one.mean_force, Dimension::force), in_words(one.force, Dimension::force),
-        std::isfinite(ratio) ? fmt::format(", {:.3g} times as much", ratio) : "",
-        hold ? " (`hold` force)" : "");
+        std::isfinite(ratio) ? fmt::format(", {:.3g} times as much", ratio) : "");
   }
   return warning;
 }

@@ -15,6 +15,7 @@
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/tangential/stick.hpp>
+#include <salebra/damping/oscillation.hpp>
 #include <salebra/surface/moments.hpp>
 #include <utility>
 #include <vector>
@@ -30,6 +31,12 @@ inline constexpr double stick_tolerance = 1e-3;
 // The stated error of a kriged quantity is this number of standard deviations; 93 % of normally
 // distributed errors are smaller.
 inline constexpr double stated_deviations = 1.8;
+
+/// hold_of() for a surface under a load: its indentation is measured from first touch.
+inline Hold hold_of(const ForceSample& load, double amplitude, Hold wanted) {
+  if (wanted != Hold::automatic) return wanted;
+  return amplitude > load.indentation ? Hold::force : Hold::indentation;
+}
 
 /// Half the range of indentations that an oscillation about a load passes. If the mean force is
 /// held, the mean indentation decreases by u_z²F''/(4K), which is about u_z²K/(4F); u_z at most is

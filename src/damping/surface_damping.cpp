@@ -94,8 +94,9 @@ class Load {
       if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
+    hold_ = detail::hold_of(sample_, amplitude_, options.hold);
     half_ = detail::half_range(
-        sample_, amplitude_, options.hold == Hold::force && options.amplitude == Amplitude::finite);
+        sample_, amplitude_, hold_ == Hold::force && options.amplitude == Amplitude::finite);
   }
 
   const std::vector<GridValue>& values() const { return values_; }
@@ -388,7 +389,7 @@ class Load {
 
   /// The mean indentation of the oscillation, m. NaN if the contacts do not cover the oscillation.
   double mean_position(const KrigedStiffness& kriged, double center) const {
-    if (options_.hold == Hold::indentation || options_.amplitude == Amplitude::small) return center;
+    if (hold_ == Hold::indentation || options_.amplitude == Amplitude::small) return center;
     constexpr int phases = 64;
     double position = center;
     for (int iteration = 0; iteration < 20; ++iteration) {
@@ -439,6 +440,7 @@ class Load {
   const ForceSample sample_;
   StiffnessRatio ratio_;
   const double amplitude_;
+  Hold hold_ = Hold::indentation;
   double half_ = 0;  // half the range of indentations of the contacts, m
   int intervals_ = 4;
   // Errors of the loss by the number of intervals, J.

@@ -119,8 +119,12 @@ class SurfaceSlidingRun {
  public:
   SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
                     const SurfaceSlidingMotion& motion)
-      : material_(material), load_(load), ratio_(ratio), motion_(motion) {
-    half_ = detail::half_range(load, motion.normal.normal_amplitude, motion.hold == Hold::force);
+      : material_(material),
+        load_(load),
+        ratio_(ratio),
+        motion_(motion),
+        hold_(detail::hold_of(load, motion.normal.normal_amplitude, motion.hold)) {
+    half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
 
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
@@ -181,17 +185,18 @@ class SurfaceSlidingRun {
   std::vector<SteadySliding> states_of(const VectorXd& positions, const VectorXd& stiffness,
                                        const StiffnessRatio& ratio) const {
     const StiffnessLaw law(positions, stiffness, load_.force, ratio, material_.modulus_ratio());
-    const OperatingPoint point = motion_.hold == Hold::indentation
+    const OperatingPoint point = hold_ == Hold::indentation
                                      ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);
     return steady_sliding(law, point, motion_.normal, motion_.velocities,
-                          motion_.friction_coefficient, {.hold = motion_.hold, .tolerance = 1e-7});
+                          motion_.friction_coefficient, {.hold = hold_, .tolerance = 1e-7});
   }
 
   const Material& material_;
   const ForceSample& load_;
   StiffnessRatio ratio_;
   const SurfaceSlidingMotion& motion_;
+  Hold hold_;
   double half_ = 0;  // half the range of indentations of the contacts, m
   VarianceScales scales_;
 };

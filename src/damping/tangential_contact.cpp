@@ -309,14 +309,12 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
   require(options.merge_tolerance >= 0, "merge_tolerance", options.merge_tolerance, "must be >= 0");
   require(options.table_tolerance >= 1e-14 && options.table_tolerance <= 1e-3, "table_tolerance",
           options.table_tolerance, "must lie between 1e-14 and 1e-3");
-  const double law_low = law.lowest_indentation(), law_high = law.highest_indentation();
-  if (!(lowest >= law_low && highest <= law_high)) {
+  if (const double end = law.highest_indentation(); !(highest <= end)) {
     std::ostringstream constraint;
     constraint.precision(9);
-    constraint << "m to " << highest << " m is the range of the motion, but the law covers ["
-               << law_low << ", " << law_high << "] m; reduce the motion"
-               << (std::isfinite(law_low) ? ", or give a curve that covers it" : "");
-    require(false, "indentation", lowest, constraint.str());
+    constraint << "m is the largest indentation of the motion, but the law ends at " << end
+               << " m; reduce the motion, or give a curve that covers it";
+    require(false, "indentation", highest, constraint.str());
   }
   const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));
   double low = lowest;
@@ -329,7 +327,7 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
     const double reach = options.friction_coefficient > 0 ? 1.001 * options.tangential_range *
                                                                 ratio / options.friction_coefficient
                                                           : std::numeric_limits<double>::infinity();
-    low = std::max(lowest - reach, law_low);
+    low = lowest - reach;
     // Ends the table at first touch, since no springs lie below it, or, for a law without first
     // touch, where K_t is negligible. With little or no friction nothing else bounds the depth of
     // slip.

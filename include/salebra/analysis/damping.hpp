@@ -29,7 +29,7 @@ struct DampingProblem {
   /// Force amplitude F_a of a force-controlled oscillation F + F_a cos ωt, N, which replaces the
   /// normal amplitude of the motion; empty: the oscillation is displacement-controlled.
   std::vector<double> force_amplitude = {};
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
   Amplitude amplitude = Amplitude::finite;
   /// Contact parameters for checking the assumptions. If a coefficient of friction is given, the
   /// loss includes slip.
@@ -129,7 +129,7 @@ struct DamperProblem {
   ContactProblem contact = {};                 ///< at one operating point
   std::vector<double> normal_amplitude = {};   ///< m; empty: only stabilising_amplitude is computed
   std::vector<double> angular_frequency = {};  ///< rad/s, at least one
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
   Amplitude amplitude = Amplitude::finite;
   std::optional<TangentialOscillator> oscillator = {};  ///< needs one amplitude and one frequency
   std::optional<double> falling_slope = {};  ///< dF/dv = −b of a falling friction force: b, N s/m

@@ -23,7 +23,7 @@ struct SlidingProblem {
   /// Excursions X of slow motions, m, for a regime map, which needs a single amplitude; empty: no
   /// map.
   std::vector<double> excursions = {};
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
 };
 
 /// Friction under vibration at each amplitude and velocity.

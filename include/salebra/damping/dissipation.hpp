@@ -15,7 +15,8 @@
 namespace salebra {
 
 /// Returns the indentation δ at an operating point, m, measured as the law measures it. Throws
-/// InvalidInput for a pressure or a mean gap, because a law has no area and no gap.
+/// InvalidInput for a pressure or a mean gap, because a law has no area and no gap, and for a force
+/// outside the samples of a table.
 double indentation_of(const ContactLaw& law, const OperatingPoint& point);
 
 enum class Amplitude {
@@ -33,7 +34,7 @@ struct DampingOptions {
   /// Hold::indentation: the operating point gives the mean indentation of the cycle. Hold::force:
   /// the cycle mean of F equals the force at the operating point (F(δ) if the point is given by an
   /// indentation δ). At Amplitude::small both choices give the same loss.
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
   Amplitude amplitude = Amplitude::finite;
   double tolerance = 1e-10;   ///< relative error of the quadrature of W; 1e-13 to 1e-2
   Progress on_progress = {};  ///< used if several cases are computed; a stop throws Interrupted
@@ -53,6 +54,9 @@ struct DampingResult : Loss {
   double force_curvature = unknown;  ///< F'' at the mean indentation, N/m²
   double force = unknown;            ///< F at the mean indentation, N
   double mean_force = unknown;       ///< cycle mean of F at finite amplitude, N
+  double max_force = unknown;        ///< F at the largest indentation of the cycle, N
+  /// Share of the period in which the bodies touch; 1 unless the contact lifts off.
+  double contact_time = unknown;
   double indentation = unknown;      ///< mean indentation of the cycle, m
   /// Loss by Eq. (12) or (15) of the paper with (G*/E*)F'' at the *given* operating point, J. It
   /// does not include the shift of the mean indentation that Hold::force causes.
@@ -62,9 +66,13 @@ struct DampingResult : Loss {
   /// Stiffness in phase with the motion, N/m, and loss factor. Known only if the friction loop was
   /// computed step by step; NaN otherwise.
   double storage_stiffness = unknown, loss_factor = unknown;
-  double error_estimate = unknown;  ///< error of work_per_cycle, J: quadrature and round-off only
+  /// Error of work_per_cycle, J: quadrature, round-off, and below the lowest sample of a table the
+  /// change of the loss if the table continues exponentially. It does not contain the errors of the
+  /// law itself.
+  double error_estimate = unknown;
   /// Whether the quadratures reached the tolerance; if false, work_per_cycle must not be used.
   bool converged = false;
+  Hold hold = Hold::indentation;  ///< the mean value that the oscillation keeps
 
   /// Sets the loss and the numbers computed from it (such as power and damping constant) to NaN;
   /// the numbers without slip stay.
@@ -81,6 +89,8 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   visit(&S::force_curvature, quantity::force_curvature);
   visit(&S::force, quantity::force);
   visit(&S::mean_force, quantity::mean_force);
+  visit(&S::max_force, quantity::max_force);
+  visit(&S::contact_time, quantity::contact_time);
   visit(&S::indentation, quantity::indentation);
   visit(&S::small_amplitude_work, quantity::small_amplitude_work);
   visit(&S::tangential_curvature,
@@ -90,9 +100,11 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   visit(&S::loss_factor, WhereKnown{quantity::loss_factor});
   visit(&S::error_estimate,
         Kept{"error_estimate",
-             "estimated error of the energy dissipated in a cycle, of quadrature and round-off",
+             "estimated error of the energy dissipated in a cycle, of quadrature, round-off and the "
+             "part below the lowest load of a curve",
              energy});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
+  visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
 }
 
 /// Computes the energy lost per cycle, and γ, from the contact law alone:
@@ -108,7 +120,9 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
 ///     DampingResult result = relaxation_damping(law, at_force(1), Drag{1e-9, 1e-6, 1e5});
 ///
 /// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values
-///         that are not finite, a force <= 0, and a motion that leaves the range of a tabulated law
+///         that are not finite, a force <= 0, a motion above the range of a tabulated law (the
+///         message names the load that it needs), and a motion below it if this part decides on
+///         the loss
 /// cost    about 100 to 1000 evaluations of the law; 50 times that with Hold::force
 DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const Oscillation& motion, const DampingOptions& options = {});
@@ -146,6 +160,16 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
                                                   double force_amplitude,
                                                   const TwoFrequencies& motion,
                                                   const DampingOptions& options = {});
+
+/// Returns what an oscillation about an operating point keeps: `wanted` unless it is automatic. Then
+/// it is the mean force if a force is given and the contact would lift off from the indentation at
+/// rest, since a preloaded machine holds the force; in all other cases the mean indentation.
+Hold hold_of(const ContactLaw& law, const OperatingPoint& point, double normal_amplitude,
+             Hold wanted = Hold::automatic);
+
+/// Returns the share θ_t/π of the period in which the bodies touch, with cos θ_t = (δ_t − δ0)/u_z
+/// and the first touch δ_t of the law; 0 <= share <= 1.
+double contact_time(const ContactLaw& law, double mean_indentation, double normal_amplitude);
 
 /// Returns the mean of F over a cycle of the indentation, δ0 + u_z cosθ, N, with δ0 =
 /// mean_indentation and u_z = normal_amplitude. Throws InvalidInput where the law does not cover

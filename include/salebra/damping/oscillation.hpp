@@ -136,14 +136,19 @@ constexpr void describe(auto&& visit, std::type_identity<SampledMotion>) {
 SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps);
 SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps);
 
-/// The quantity that stays constant when a normal oscillation of finite amplitude starts: the mean
-/// indentation, or the mean force (a dead weight).
-enum class Hold { indentation, force };
+/// The quantity that stays constant when a normal oscillation of finite amplitude starts.
+enum class Hold {
+  indentation,  ///< the mean indentation
+  force,        ///< the mean force, as under a dead weight or in a preloaded machine
+  /// The mean force if a force is given and the contact would lift off from the indentation at
+  /// rest, otherwise the mean indentation: hold_of().
+  automatic
+};
 
 template <>
 struct EnumNames<Hold> {
   static constexpr auto values = std::to_array<std::pair<Hold, std::string_view>>(
-      {{Hold::indentation, "indentation"}, {Hold::force, "force"}});
+      {{Hold::indentation, "indentation"}, {Hold::force, "force"}, {Hold::automatic, "auto"}});
 };
 
 }  // namespace salebra

@@ -10,6 +10,8 @@ namespace salebra::quantity {
 
 inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angular_frequency,
                                             "angular frequency"},
+    contact_time{"contact_time", Dimension::dimensionless,
+                 "share of the period in which the bodies touch"},
     damping_constant{"damping_constant", Dimension::damping, "damping constant P/v^2"},
     damping_constant_error{"damping_constant_error", Dimension::damping,
                            "numerical error of the damping constant"},
@@ -31,6 +33,7 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
     indentation{"indentation", Dimension::length, "indentation"},
     loss_factor{"loss_factor", Dimension::dimensionless,
                 "energy dissipated over 2 pi times energy stored"},
+    max_force{"max_force", Dimension::force, "normal force, maximum of a cycle"},
     mean_force{"mean_force", Dimension::force, "normal force, mean over a cycle"},
     normal_amplitude{"normal_amplitude", Dimension::length, "amplitude of the normal oscillation"},
     normal_stiffness{"normal_stiffness", Dimension::stiffness,

@@ -67,8 +67,7 @@ struct EnumNames<SliderState> {
 };
 
 struct SliderOptions {
-  Hold hold =
-      Hold::indentation;  ///< quantity of the operating point held constant, as in DampingOptions
+  Hold hold = Hold::automatic;  ///< mean value that the oscillation keeps, as in DampingOptions
   SliderStart start = SliderStart::rest;  ///< initial state
   /// Steps per period of the normal oscillation, >= 16. More are taken if the natural frequency of
   /// the slider, or its resonance √(K_t/m) on the contact stiffness, is faster than the

@@ -191,7 +191,7 @@ struct SurfaceSlidingMotion {
   NormalOscillation normal;         ///< u_z > 0
   std::vector<double> velocities;   ///< > 0, m/s
   double friction_coefficient = 0;  ///< μ
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
 };
 
 /// Computes steady sliding of a surface, with errors, from contacts solved inside the oscillation.

@@ -36,7 +36,7 @@ constexpr bool allowed_intervals(double intervals) {
 }
 
 struct SurfaceDampingOptions {
-  Hold hold = Hold::indentation;
+  Hold hold = Hold::automatic;
   Amplitude amplitude = Amplitude::finite;
   Boundary boundary = Boundary::periodic;
   /// Number of intervals between the indentations at which the contact is solved: 4, 8, 16 or 32.

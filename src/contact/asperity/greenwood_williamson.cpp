@@ -216,6 +216,10 @@ double GreenwoodWilliamsonLaw::force_curvature(double indentation) const {
   return model_->force_curvature(separation(indentation));
 }
 
+double GreenwoodWilliamsonLaw::first_touch() const {
+  return model_->indentation(model_->common().upper_separation);
+}
+
 double GreenwoodWilliamsonLaw::indentation_of(double force) const {
   return model_->indentation(model_->separation_of(force));
 }

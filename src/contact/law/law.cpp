@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <sstream>
@@ -26,6 +27,8 @@ double ContactLaw::stiffness_ratio(double) const { return modulus_ratio_; }
 double ContactLaw::tangential_curvature(double indentation) const {
   return modulus_ratio_ * force_curvature(indentation);
 }
+
+double ContactLaw::first_touch() const { return -std::numeric_limits<double>::infinity(); }
 
 double ContactLaw::lowest_indentation() const { return -std::numeric_limits<double>::infinity(); }
 
@@ -102,20 +105,30 @@ double ExponentialLaw::indentation_of(double force) const {
 struct TabulatedLaw::Splines {
   detail::MonotoneHermite log_force;
   std::unique_ptr<const detail::MonotoneHermite> log_tangential_stiffness;  // null: (G*/E*)K
+  // At the first sample: F, K and K_t (0 if the law has no K_t of its own).
+  double force = 0, stiffness = 0, tangential = 0;
+
+  double first_touch() const { return log_force.front() - 1.5 * force / stiffness; }
+  // s = (δ − δ_t)/(δ1 − δ_t) between first touch and the first sample, 0 if the bodies are apart;
+  // empty within the samples.
+  std::optional<double> share_below(double indentation) const {
+    if (!(indentation < log_force.front())) return {};
+    return std::max(0.0, 1 - (log_force.front() - indentation) * stiffness / (1.5 * force));
+  }
 
   double clamp(double indentation) const {
     detail::stop_if_asked();
     // Round-off in an indentation at the end of an oscillation must not turn a sweep over the whole
     // table into an error.
     const double low = log_force.front(), high = log_force.back(), slack = 1e-12 * (high - low);
-    if (!(indentation >= low - slack && indentation <= high + slack)) {
+    if (!(indentation <= high + slack)) {
       std::ostringstream constraint;
       constraint.precision(12);
-      constraint << "lies outside the curve's range [" << low << ", " << high
-                 << "] m; reduce the amplitude, or give a curve that covers it";
+      constraint << "lies above the curve's range, which ends at " << high
+                 << " m; reduce the amplitude, or give a curve that covers it";
       require(false, "indentation", indentation, constraint.str());
     }
-    return std::clamp(indentation, low, high);
+    return std::min(indentation, high);
   }
 };
 
@@ -180,35 +193,52 @@ TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
   }
   auto splines = std::make_unique<Splines>(
       Splines{detail::MonotoneHermite(indentation, std::move(log_force), std::move(slope)), {}});
-  if (has_tangential)
+  const double first = columns.front().indentation;
+  splines->force = columns.front().force;
+  splines->stiffness = splines->force * splines->log_force.at(first).slope;
+  if (has_tangential) {
     splines->log_tangential_stiffness = std::make_unique<const detail::MonotoneHermite>(
         std::move(indentation), std::move(log_tangential));
+    splines->tangential = columns.front().tangential_stiffness;
+  }
   splines_ = std::move(splines);
 }
 
 TabulatedLaw::~TabulatedLaw() = default;
 
 double TabulatedLaw::force(double indentation) const {
+  if (const auto share = splines_->share_below(indentation))
+    return splines_->force * std::pow(*share, 1.5);
   return std::exp(splines_->log_force.at(splines_->clamp(indentation)).value);
 }
 
 double TabulatedLaw::normal_stiffness(double indentation) const {
+  if (const auto share = splines_->share_below(indentation))
+    return splines_->stiffness * std::sqrt(*share);
   const auto log_force = splines_->log_force.at(splines_->clamp(indentation));
   return std::exp(log_force.value) * log_force.slope;
 }
 
 double TabulatedLaw::force_curvature(double indentation) const {
+  if (const auto share = splines_->share_below(indentation))
+    return *share > 0 ? splines_->stiffness / std::sqrt(*share) / 2 * splines_->stiffness /
+                            (1.5 * splines_->force)
+                      : 0;
   const auto log_force = splines_->log_force.at(splines_->clamp(indentation));
   return std::exp(log_force.value) * (log_force.slope * log_force.slope + log_force.curvature);
 }
 
 double TabulatedLaw::tangential_stiffness(double indentation) const {
   if (!splines_->log_tangential_stiffness) return ContactLaw::tangential_stiffness(indentation);
+  if (const auto share = splines_->share_below(indentation))
+    return splines_->tangential * std::sqrt(*share);
   return std::exp(splines_->log_tangential_stiffness->at(splines_->clamp(indentation)).value);
 }
 
 double TabulatedLaw::tangential_curvature(double indentation) const {
   if (!splines_->log_tangential_stiffness) return ContactLaw::tangential_curvature(indentation);
+  if (splines_->share_below(indentation))
+    return stiffness_ratio(indentation) * force_curvature(indentation);
   const auto log_stiffness = splines_->log_tangential_stiffness->at(splines_->clamp(indentation));
   return std::exp(log_stiffness.value) * log_stiffness.slope;
 }
@@ -219,27 +249,36 @@ double TabulatedLaw::stiffness_ratio(double indentation) const {
   return tangential_stiffness(within) / normal_stiffness(within);
 }
 
+double TabulatedLaw::first_touch() const { return splines_->first_touch(); }
+
 double TabulatedLaw::lowest_indentation() const { return splines_->log_force.front(); }
 
 double TabulatedLaw::highest_indentation() const { return splines_->log_force.back(); }
 
-std::vector<double> TabulatedLaw::break_points() const { return splines_->log_force.nodes(); }
+std::vector<double> TabulatedLaw::break_points() const {
+  std::vector<double> points = splines_->log_force.nodes();
+  points.insert(points.begin(), first_touch());
+  return points;
+}
 
 double TabulatedLaw::indentation_of(double force) const {
   require_positive(force, "force");
   const double log_force = std::log(force);
   const double low = splines_->log_force.at(lowest_indentation()).value;
   const double high = splines_->log_force.at(highest_indentation()).value;
+  if (log_force < low)
+    return first_touch() + (lowest_indentation() - first_touch()) *
+                               std::pow(force / splines_->force, 2.0 / 3);
   // The same allowance for round-off as for indentations in clamp().
   const double slack = 1e-12 * (high - low);
-  if (!(log_force >= low - slack && log_force <= high + slack)) {
+  if (!(log_force <= high + slack)) {
     std::ostringstream constraint;
     constraint.precision(12);
-    constraint << "lies outside the curve's range [" << std::exp(low) << ", " << std::exp(high)
-               << "] N; choose a force within it, or give a curve that covers it";
+    constraint << "lies above the curve's range, which ends at " << std::exp(high)
+               << " N; choose a force within it, or give a curve that covers it";
     require(false, "force", force, constraint.str());
   }
-  return splines_->log_force.where(std::clamp(log_force, low, high));
+  return splines_->log_force.where(std::min(log_force, high));
 }
 
 }  // namespace salebra

@@ -237,6 +237,8 @@ class GreenwoodWilliamsonLaw final : public ContactLaw {
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
   double force_curvature(double indentation) const override;
+  /// That of the highest summit; of a statistical ensemble where its force is below round-off.
+  double first_touch() const override;
   double indentation_of(double force) const override;
   std::vector<double> break_points() const override;
   const AsperityModel& model() const { return *model_; }

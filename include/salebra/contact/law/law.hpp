@@ -12,8 +12,8 @@ namespace salebra {
 ///     const TabulatedLaw law(curve, material.modulus_ratio());
 ///     const double stiffness = law.normal_stiffness(law.indentation_of(10.0));
 /// Indentation δ grows with approach. A law is immutable and may be shared between threads. Units:
-/// m, N, N/m, N/m². Evaluation outside [lowest_indentation, highest_indentation] throws
-/// InvalidInput that names the range; below first touch, laws that define it return 0.
+/// m, N, N/m, N/m². Below first_touch() the bodies are apart: F, K, K_t and their derivatives are 0.
+/// Evaluation above highest_indentation() throws InvalidInput that names the range.
 class ContactLaw {
  public:
   /// modulus_ratio: G*/E* > 0, the ratio of K_t to K.
@@ -30,8 +30,12 @@ class ContactLaw {
   /// that touches at the depth ζ slips at the stretch (μK/K_t)(δ − ζ); a contact that slides as a
   /// whole then carries μF.
   virtual double stiffness_ratio(double indentation) const;
-  virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
-  virtual double highest_indentation() const;  ///< +∞ unless the law is a table
+  /// Indentation δ_t at which the bodies touch first, m; −∞ for a law with a force at every δ.
+  virtual double first_touch() const;
+  /// Lowest indentation of the data that the law comes from, m; −∞ unless the law is a table, which
+  /// is continued from there down to first touch.
+  virtual double lowest_indentation() const;
+  virtual double highest_indentation() const;  ///< m; +∞ unless the law is a table
   /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput if the law does not reach the
   /// force.
   virtual double indentation_of(double force) const = 0;
@@ -54,6 +58,7 @@ class PowerLaw final : public ContactLaw {
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
   double force_curvature(double indentation) const override;
+  double first_touch() const override { return 0; }
   double indentation_of(double force) const override;
   std::vector<double> break_points() const override;  ///< first touch
   double coefficient() const { return coefficient_; }
@@ -84,8 +89,15 @@ class ExponentialLaw final : public ContactLaw {
 /// are of order 4, 3 and 2 in the spacing of the samples (F'' jumps at the samples). If every
 /// sample has K_t, ln K_t is interpolated in the same way and modulus_ratio is not used; otherwise
 /// K_t = (G*/E*)K. δ is the indentation of the samples, or −ū if a sample has no indentation; this
-/// only shifts δ. Samples that did not converge or have F = 0 are ignored. Throws InvalidInput for
-/// fewer than four usable samples or F not growing with δ.
+/// only shifts δ. Samples that did not converge or have F = 0 are ignored.
+///
+/// Below the first sample (δ1, F1, K1, K_t1) the law is that of summits that separate one after the
+/// other, until the last of them opens like a sphere at δ_t:
+///     F = F1 s^(3/2),  K = K1 s^(1/2),  K_t = K_t1 s^(1/2),
+///     s = (δ − δ_t)/(δ1 − δ_t),  δ_t = δ1 − 1.5 F1/K1.
+/// Whether this continuation matters is judged by whoever integrates over it (error_estimate of
+/// DampingResult).
+/// Throws InvalidInput for fewer than four usable samples or F not growing with δ.
 class TabulatedLaw final : public ContactLaw {
  public:
   TabulatedLaw(const ForceCurve& curve, double modulus_ratio);
@@ -97,10 +109,12 @@ class TabulatedLaw final : public ContactLaw {
   double tangential_curvature(double indentation) const override;
   /// K_t/K; beyond the first or last sample, its value at that sample.
   double stiffness_ratio(double indentation) const override;
+  double first_touch() const override;
   double lowest_indentation() const override;
   double highest_indentation() const override;
   double indentation_of(double force) const override;
-  std::vector<double> break_points() const override;  ///< the indentations of the samples
+  /// First touch and the indentations of the samples.
+  std::vector<double> break_points() const override;
 
  private:
   struct Splines;

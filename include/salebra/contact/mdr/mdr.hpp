@@ -123,6 +123,7 @@ class IndenterLaw final : public ContactLaw {
   double normal_stiffness(double indentation) const override;
   double force_curvature(double indentation) const override;
   double indentation_of(double force) const override;
+  double first_touch() const override { return 0; }
   double highest_indentation() const override;
   std::vector<double> break_points() const override;
   double contact_radius(double indentation) const;
