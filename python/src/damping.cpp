@@ -63,7 +63,7 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
           }};
 }
 
-void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results) {
+void warn_of_held_indentation(std::span<const DampingResult> results) {
   if (const auto warning = detail::warning_of_held_indentation(results)) warn_user(*warning);
 }
 
@@ -179,7 +179,7 @@ void bind_theorem(nb::module_& m) {
         });
         BoundDamping bound = to_be_judged(result, law, motion, parameters, curve);
         warn_of_unknown(motion, parameters);
-        warn_of_held_indentation(options.hold, {&result, 1});
+        warn_of_held_indentation({&result, 1});
         return bound;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
@@ -260,7 +260,7 @@ InvalidInput
             add_slip(found[i], law, described[i], known(parameters));
           return found;
         });
-        warn_of_held_indentation(options.hold, results);
+        warn_of_held_indentation(results);
         BoundDampingCurve curve_of = over(cases, force.has_value());
         for (std::size_t i = 0; i < count; ++i)
           curve_of.results.push_back(
