@@ -40,15 +40,23 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.relaxation_work = loss.relaxation_work;
     result.slip_work = loss.slip_work;
   };
-  // Returns the loss of a law about its mean indentation.
-  const auto work_of = [&](const ContactLaw& one, double indentation) {
-    if (const auto* drag = std::get_if<Drag>(&motion))
-      return loss_with_slip(one, indentation, *drag, friction, parameters.excursion).work_per_cycle;
-    return cycle_of(one, motion, indentation, steps, friction, context).loss.work_per_cycle;
-  };
   if (const auto* drag = std::get_if<Drag>(&motion)) {
-    take(loss_with_slip(law, result.indentation, *drag, friction, parameters.excursion));
+    const auto loss_of = [&](const ContactLaw& one, double indentation) {
+      return loss_with_slip(one, indentation, *drag, friction, parameters.excursion);
+    };
+    take(loss_of(law, result.indentation));
     result.power = closed_form::power(result.work_per_cycle, *drag);
+    if (!std::isfinite(law.lowest_indentation())) return;
+    // Springs slip below the oscillation too, where the law of a table is only continued.
+    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+    const double indentation =
+        result.hold == Hold::force
+            ? indentation_at_mean_force(other, result.mean_force, drag->normal_amplitude)
+            : result.indentation;
+    result.error_estimate +=
+        detail::change_below_table(law, result.work_per_cycle,
+                                   loss_of(other, indentation).work_per_cycle) *
+        result.work_per_cycle;
   } else {
     const TrajectoryDamping cycle =
         cycle_of(law, motion, result.indentation, steps, friction, context).loss;
@@ -56,17 +64,8 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.power = cycle.power;
     result.storage_stiffness = cycle.storage_stiffness;
     result.loss_factor = cycle.loss_factor;
+    result.error_estimate += cycle.error_estimate;
   }
-  // Springs slip below the oscillation, and their law below the samples of a table is a guess.
-  if (!std::isfinite(law.lowest_indentation())) return;
-  const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
-  const double indentation = result.hold == Hold::force
-                                 ? indentation_at_mean_force(other, result.mean_force, amplitude)
-                                 : result.indentation;
-  result.error_estimate += detail::change_below_table(law, result.work_per_cycle,
-                                                      work_of(other, indentation)) *
-                           result.work_per_cycle;
 }
 
 DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,

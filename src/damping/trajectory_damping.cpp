@@ -9,6 +9,7 @@
 
 #include "base/special_values.hpp"
 #include "base/stop_check.hpp"
+#include "continued_law.hpp"
 #include "max_motion.hpp"
 
 namespace salebra {
@@ -79,11 +80,9 @@ void set_series(TrajectoryDamping& result, const std::vector<double>& force,
   result.dissipated.push_back(result.work_per_cycle);
 }
 
-}  // namespace
-
-TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
-                                     const TrajectoryDampingOptions& options) {
-  path.validate();
+// The steady state of a path that is valid.
+TrajectoryDamping followed(const ContactLaw& law, const SampledMotion& path,
+                           const TrajectoryDampingOptions& options) {
   const auto [lowest, highest] = std::ranges::minmax(path.indentation);
   detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
   const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
@@ -152,6 +151,23 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   return result;
 }
 
+}  // namespace
+
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
+                                     const TrajectoryDampingOptions& options) {
+  path.validate();
+  TrajectoryDamping result = followed(law, path, options);
+  const bool slips = std::isfinite(options.friction_coefficient);
+  if (!std::isfinite(law.lowest_indentation()) ||
+      !(slips || detail::reaches_below_table(law, std::ranges::min(path.indentation))))
+    return result;
+  const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+  result.error_estimate = detail::change_below_table(law, result.work_per_cycle,
+                                                     followed(other, path, options).work_per_cycle) *
+                          result.work_per_cycle;
+  return result;
+}
+
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
                                      std::span<const double> transverse) {
   require(transverse.size() == path.time.size(), "transverse", transverse.size(),
@@ -161,6 +177,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   TrajectoryDamping other = trajectory_damping(law, across);
   result.work_per_cycle += other.work_per_cycle;
   result.relaxation_work += other.relaxation_work;
+  result.error_estimate += other.error_estimate;
   for (std::size_t i = 0; i < result.dissipated.size(); ++i)
     result.dissipated[i] += other.dissipated[i];
   result.memory = std::max(result.memory, other.memory);

@@ -24,6 +24,9 @@ struct TrajectoryDamping {
   /// Part of work_per_cycle lost by springs in permanent contact, J: the slip loss of Cattaneo and
   /// Mindlin.
   double slip_work = 0;
+  /// Change of work_per_cycle, J, if a table continues exponentially below its lowest sample; 0 if
+  /// the springs below it do not lose anything. The steps of the trajectory are taken as exact.
+  double error_estimate = 0;
   double power = 0;             ///< work_per_cycle divided by the period, W
   double damping_constant = 0;  ///< γ = P/⟨ẋ²⟩, N s/m; NaN for a motion without ẋ
   /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion
@@ -48,6 +51,7 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
+  visit(&S::error_estimate, quantity::error_estimate);
   visit(&S::power, quantity::power);
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::storage_stiffness, quantity::storage_stiffness);
@@ -67,7 +71,8 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
 /// limit, and the second period is steady (docs/theory.md, section 8). The result is exact for the
 /// straight steps of the trajectory, and of second order in the step for a sampled harmonic motion.
 /// Throws InvalidInput for a trajectory that fails SampledMotion::validate() or leaves the range of
-/// the law, and for a friction coefficient < 0. Cost: O(samples).
+/// the law, for a table whose loss comes from springs below its lowest sample, and for a friction
+/// coefficient < 0. Cost: O(samples).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
