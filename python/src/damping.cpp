@@ -183,9 +183,9 @@ void bind_theorem(nb::module_& m) {
         return bound;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
-      nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto", nb::arg("amplitude") = "finite",
+      nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
+      nb::arg("curve") = nb::none(),
       R"(Energy lost per cycle by an oscillating contact, at any amplitude; with slip if `parameters` have a coefficient of friction.
 
 Without slip it is
@@ -274,10 +274,9 @@ InvalidInput
         return curve_of;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
-      nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
-      nb::arg("assumptions") = true, nb::arg("progress") = false,
+      nb::arg("force") = nb::none(), nb::arg("hold") = "auto", nb::arg("amplitude") = "finite",
+      nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
+      nb::arg("curve") = nb::none(), nb::arg("assumptions") = true, nb::arg("progress") = false,
       R"(:func:`relaxation_damping` of many cases in parallel: several motions, several indentations or forces, or as many of both.
 
 Each result judges its assumptions when they are first read; `assumptions=False` leaves them out.
@@ -363,8 +362,8 @@ void bind_damper(nb::module_& m) {
         });
       },
       nb::arg("law"), nb::arg("normal_amplitudes"), nb::arg("angular_frequencies"), nb::kw_only(),
-      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "auto", nb::arg("tolerance") = 1e-10,
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
+      nb::arg("tolerance") = 1e-10,
       "The damping constant over amplitudes (m) and angular frequencies (rad/s).");
   m.def(
       "stabilising_amplitude",

@@ -122,8 +122,8 @@ progress : bool or callable
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
-      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "auto", nb::arg("steps") = 32,
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
+      nb::arg("steps") = 32,
       "Tests whether small disturbances of steady sliding grow, by the full equation of motion and "
       "by "
       "dT̄/dv + c − b; indentation (m) or force (N), one of the two.");
@@ -158,8 +158,8 @@ progress : bool or callable
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("normal_amplitude"), nb::arg("max_angular_frequency"),
-      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("hold") = "auto", nb::arg("steps") = 32,
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
+      nb::arg("steps") = 32,
       "Minimum angular frequency (rad/s) at which small disturbances of sliding decay; "
       "indentation (m) or force (N), one of the two.");
 }

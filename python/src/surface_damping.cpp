@@ -118,10 +118,10 @@ void bind_surface_damping(nb::module_& m) {
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve") = nb::none(),
       nb::kw_only(), nb::arg("pressures") = nb::none(), nb::arg("parameters") = nb::none(),
-      nb::arg("hold") = "auto", nb::arg("amplitude") = "finite",
-      nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
-      nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = Loss::unknown,
-      nb::arg("excursion") = Loss::unknown, nb::arg("progress") = false,
+      nb::arg("hold") = "auto", nb::arg("amplitude") = "finite", nb::arg("boundary") = "periodic",
+      nb::arg("relative_error") = 0.0, nb::arg("seam") = nb::none(),
+      nb::arg("friction_coefficient") = Loss::unknown, nb::arg("excursion") = Loss::unknown,
+      nb::arg("progress") = false,
       R"(Damping of one surface at each pressure, from contacts within the oscillation, with its error.
 
 Nothing is interpolated between loads. Cells are halved once to estimate their error; with relative_error > 0 they are halved further

@@ -137,11 +137,12 @@ void require_covered(const ContactLaw& law, double highest, double amplitude) {
                << " m; reduce the amplitude";
     require(false, "normal_amplitude", amplitude, constraint.str());
   }
-  require(false, "normal_amplitude", amplitude,
-          fmt::format("m presses up to about {}, but the curve ends at {}; extend the curve to this "
-                      "load, or reduce the amplitude",
-                      format_quantity(detail::ContinuedLaw(law).force(highest), Dimension::force, 3),
-                      format_quantity(law.force(end), Dimension::force, 3)));
+  require(
+      false, "normal_amplitude", amplitude,
+      fmt::format("m presses up to about {}, but the curve ends at {}; extend the curve to this "
+                  "load, or reduce the amplitude",
+                  format_quantity(detail::ContinuedLaw(law).force(highest), Dimension::force, 3),
+                  format_quantity(law.force(end), Dimension::force, 3)));
 }
 
 // Throws if the force at the largest indentation overflows, since losses would be NaN or wrong.
@@ -285,11 +286,12 @@ DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, con
     if (detail::reaches_below_table(law, result.indentation - amplitude)) {
       const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
       DampingResult by_other;
-      set_finite(by_other, other,
-                 mean_force ? indentation_at_mean_force(other, result.mean_force, amplitude)
-                            : settled,
-                 kernel, 1e-7);
-      const double change = detail::change_below_table(law, measure_of(result), measure_of(by_other));
+      set_finite(
+          by_other, other,
+          mean_force ? indentation_at_mean_force(other, result.mean_force, amplitude) : settled,
+          kernel, 1e-7);
+      const double change =
+          detail::change_below_table(law, measure_of(result), measure_of(by_other));
       result.error_estimate += change * std::abs(result.work_per_cycle);
     }
   }
@@ -364,10 +366,11 @@ double indentation_of(const ContactLaw& law, const OperatingPoint& point) {
     const double low = law.force(lowest), high = law.force(law.highest_indentation());
     // The force of a sample may differ from that of the law by round-off.
     constexpr double slack = 1e-9;
-    require(!(point.value < (1 - slack) * low), "force", point.value,
-            fmt::format("lies outside the curve's range [{:.12g}, {:.12g}] N; choose a force within "
-                        "it, or give a curve that covers it",
-                        low, high));
+    require(
+        !(point.value < (1 - slack) * low), "force", point.value,
+        fmt::format("lies outside the curve's range [{:.12g}, {:.12g}] N; choose a force within "
+                    "it, or give a curve that covers it",
+                    low, high));
   }
   return law.indentation_of(point.value);
 }

@@ -127,9 +127,10 @@ double change_below_table(const ContactLaw& law, double loss, double loss_by_exp
   const double change = loss == loss_by_exponential ? 0 : std::abs(loss_by_exponential / loss - 1);
   if (change <= max_change_below) return change;
   throw InvalidInput(
-      "curve", fmt::format("begins at {}, and the part of the motion below this load decides on the "
-                           "loss; extend the curve to lower loads, or reduce the amplitude",
-                           in_words(law.force(law.lowest_indentation()), Dimension::force)));
+      "curve",
+      fmt::format("begins at {}, and the part of the motion below this load decides on the "
+                  "loss; extend the curve to lower loads, or reduce the amplitude",
+                  in_words(law.force(law.lowest_indentation()), Dimension::force)));
 }
 
 std::optional<std::string> warning_of_held_indentation(std::span<const DampingResult> results) {

@@ -95,8 +95,8 @@ class Load {
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
     hold_ = detail::hold_of(sample_, amplitude_, options.hold);
-    half_ = detail::half_range(
-        sample_, amplitude_, hold_ == Hold::force && options.amplitude == Amplitude::finite);
+    half_ = detail::half_range(sample_, amplitude_,
+                               hold_ == Hold::force && options.amplitude == Amplitude::finite);
   }
 
   const std::vector<GridValue>& values() const { return values_; }

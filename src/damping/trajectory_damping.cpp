@@ -162,9 +162,10 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
       !(slips || detail::reaches_below_table(law, std::ranges::min(path.indentation))))
     return result;
   const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-  result.error_estimate = detail::change_below_table(law, result.work_per_cycle,
-                                                     followed(other, path, options).work_per_cycle) *
-                          result.work_per_cycle;
+  result.error_estimate =
+      detail::change_below_table(law, result.work_per_cycle,
+                                 followed(other, path, options).work_per_cycle) *
+      result.work_per_cycle;
   return result;
 }
 

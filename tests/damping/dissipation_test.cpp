@@ -341,8 +341,9 @@ TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipat
     // ln F is a straight line, which the table reproduces to round-off.
     CHECK(relaxation_damping(law, at_force(1), motion).work_per_cycle ==
           Approx(relaxation_damping(exact, at_force(1), motion).work_per_cycle).epsilon(1e-9));
-  CHECK_THROWS_WITH(relaxation_damping(law, at_indentation(3.5e-7), slow_drag(1e-7)),
-                    Catch::Contains("normal_amplitude") && Catch::Contains("presses up to about 270 N"));
+  CHECK_THROWS_WITH(
+      relaxation_damping(law, at_indentation(3.5e-7), slow_drag(1e-7)),
+      Catch::Contains("normal_amplitude") && Catch::Contains("presses up to about 270 N"));
   CHECK_THROWS_AS(relaxation_damping(law, at_force(1000), slow_drag(1e-7)), InvalidInput);
   // A load near the lower end: the part below the table decides on the loss.
   const double near_the_end = exact.force(-3.9e-7);

@@ -356,7 +356,8 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   for (int i = 0; i <= 20; ++i)
     curve.samples.push_back({.indentation = 1e-7 * i, .force = std::exp(0.2 * i)});
   const TabulatedLaw table(curve, ratio);
-  CHECK_THROWS_WITH(TangentialContact(table, 1e-6, 3e-6), Catch::Contains("the law ends at 2e-06 m"));
+  CHECK_THROWS_WITH(TangentialContact(table, 1e-6, 3e-6),
+                    Catch::Contains("the law ends at 2e-06 m"));
   // Slip reaches first touch below the table's first sample: the contact slides as a whole.
   TangentialContact deep(table, 1e-7, 1e-6,
                          {.friction_coefficient = 0.01, .tangential_range = 2e-6});

@@ -57,7 +57,7 @@ struct DampingResult : Loss {
   double max_force = unknown;        ///< F at the largest indentation of the cycle, N
   /// Share of the period in which the bodies touch; 1 unless the contact lifts off.
   double contact_time = unknown;
-  double indentation = unknown;      ///< mean indentation of the cycle, m
+  double indentation = unknown;  ///< mean indentation of the cycle, m
   /// Loss by Eq. (12) or (15) of the paper with (G*/E*)F'' at the *given* operating point, J. It
   /// does not include the shift of the mean indentation that Hold::force causes.
   double small_amplitude_work = unknown;
@@ -98,11 +98,12 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
              force_curvature});
   visit(&S::storage_stiffness, WhereKnown{quantity::storage_stiffness});
   visit(&S::loss_factor, WhereKnown{quantity::loss_factor});
-  visit(&S::error_estimate,
-        Kept{"error_estimate",
-             "estimated error of the energy dissipated in a cycle, of quadrature, round-off and the "
-             "part below the lowest load of a curve",
-             energy});
+  visit(
+      &S::error_estimate,
+      Kept{"error_estimate",
+           "estimated error of the energy dissipated in a cycle, of quadrature, round-off and the "
+           "part below the lowest load of a curve",
+           energy});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
   visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
 }

@@ -267,8 +267,8 @@ double TabulatedLaw::indentation_of(double force) const {
   const double low = splines_->log_force.at(lowest_indentation()).value;
   const double high = splines_->log_force.at(highest_indentation()).value;
   if (log_force < low)
-    return first_touch() + (lowest_indentation() - first_touch()) *
-                               std::pow(force / splines_->force, 2.0 / 3);
+    return first_touch() +
+           (lowest_indentation() - first_touch()) * std::pow(force / splines_->force, 2.0 / 3);
   // The same allowance for round-off as for indentations in clamp().
   const double slack = 1e-12 * (high - low);
   if (!(log_force <= high + slack)) {
