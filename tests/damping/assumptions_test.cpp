@@ -519,13 +519,14 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   CHECK(own.stiffness_ratio(-1e-5) == Approx(1.1 * ratio).epsilon(1e-12));  // beyond its end
   CHECK(like.stiffness_ratio(0) == 1.1 * ratio);
   const double critical = friction / (1.1 * ratio) * 2e-9 * omega;
-  // The table ends four lengths below, at 2 % of the force. What lies deeper carries at most this
-  // part of the loss of a long drag, and 2e-5 of the others; the tables of K_t are accurate to 1e-9.
+  // The table ends four lengths below, at 2 % of the force. A long drag stores energy in its springs
+  // twice in 2X, in those below the table 2 % of 6e-3 of the loss; the other motions hardly reach
+  // them.
   const auto same = [&](const Oscillation& motion, double excursion) {
     const Loss table = loss_with_slip(own, 0, motion, friction, excursion),
                formula = loss_with_slip(like, 0, motion, friction, excursion);
-    CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(2e-5));
-    CHECK(table.slip_work == Approx(formula.slip_work).epsilon(2e-5));
+    CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(2e-4));
+    CHECK(table.slip_work == Approx(formula.slip_work).epsilon(2e-4));
     return table.work_per_cycle;
   };
   same(EqualFrequency{.normal_amplitude = 2e-8, .tangential_amplitude = 1e-8, .phase = 1}, NAN);

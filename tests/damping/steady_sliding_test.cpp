@@ -251,9 +251,10 @@ TEST_CASE("Springs below the samples of a table slide along", "[sliding]") {
     contact.move_to(path.indentation[k], path.displacement[k] - path.displacement[0]);
   CHECK(contact.tangential_force() == Approx(force).epsilon(1e-9));
   CHECK(contact.external_work() == Approx(contact.dissipated()).epsilon(1e-9));
-  // Backwards, all of them slide the other way.
+  // Backwards, all of them slide the other way. The tolerance is that of the table of K_t, whose
+  // slope is infinite at first touch.
   contact.move_to(-5e-8, -2e-6);
-  CHECK(contact.tangential_force() == Approx(-0.3 * table.force(-5e-8)).epsilon(1e-9));
+  CHECK(contact.tangential_force() == Approx(-0.3 * table.force(-5e-8)).epsilon(1e-7));
 }
 
 TEST_CASE("A drag far too short for sliding to begin has its steady state all the same",

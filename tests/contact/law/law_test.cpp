@@ -173,7 +173,9 @@ TEST_CASE("A table opens below its first sample like a sphere, and all its numbe
       CHECK(law.tangential_curvature(at) ==
             Approx(slope(&ContactLaw::tangential_stiffness)).epsilon(1e-6));
     }
-    CHECK(law.stiffness_ratio(at) == Approx(0.7).epsilon(1e-12));
+    CHECK(law.stiffness_ratio(at) == Approx(law.stiffness_ratio(first)).epsilon(1e-12));
+    CHECK(law.tangential_stiffness(at) ==
+          Approx(law.stiffness_ratio(at) * law.normal_stiffness(at)).epsilon(1e-9));
     CHECK(law.indentation_of(law.force(at)) == Approx(at).margin(1e-12 * (first - touch)));
   }
   // F and K are continuous at the first sample.
