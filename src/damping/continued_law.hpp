@@ -56,6 +56,7 @@ class ContinuedLaw final : public ContactLaw {
   double first_touch() const override {
     return std::isfinite(low_.end) ? -infinite : law_.first_touch();
   }
+  double lowest_indentation() const override { return law_.lowest_indentation(); }
   double highest_indentation() const override {
     return is_table_ ? infinite : law_.highest_indentation();
   }

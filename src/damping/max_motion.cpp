@@ -24,7 +24,7 @@ std::string in_words(double value, Dimension dimension) {
 // = K²; NaN for other laws. It tests numbers and not the class, because a law may be wrapped in
 // another.
 double decay_length_of(const ContactLaw& law, double position) {
-  if (std::isfinite(law.first_touch())) return unknown;
+  if (std::isfinite(law.lowest_indentation())) return unknown;
   const auto is_exponential = [&](double at) {
     const double stiffness = law.normal_stiffness(at);
     return std::abs(law.force(at) * law.force_curvature(at) / (stiffness * stiffness) - 1) < 1e-12;
