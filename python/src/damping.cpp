@@ -170,13 +170,16 @@ void bind_theorem(nb::module_& m) {
         cite({"popov2015"});
         const OperatingPoint point = operating_point_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
+        std::string dropped;
         const DampingResult result = unlocked([&] {
           DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, point, one, options);
           });
           add_slip(found, law, motion, known(parameters));
+          dropped = drop_uncertain(found);
           return found;
         });
+        if (!dropped.empty()) warn_user(dropped);
         BoundDamping bound = to_be_judged(result, law, motion, parameters, curve);
         warn_of_unknown(motion, parameters);
         warn_of_held_indentation({&result, 1});
@@ -252,14 +255,18 @@ InvalidInput
           described.push_back(motion_of(cases[i].motion));
         }
         DampingOptions options = damping_options(hold, amplitude, tolerance);
+        std::string dropped;
         const std::vector<DampingResult> results = interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
           const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
           std::vector<DampingResult> found = relaxation_damping(law, cases, options);
-          for (std::size_t i = 0; i < count; ++i)
+          for (std::size_t i = 0; i < count; ++i) {
             add_slip(found[i], law, described[i], known(parameters));
+            if (const std::string one = drop_uncertain(found[i]); dropped.empty()) dropped = one;
+          }
           return found;
         });
+        if (!dropped.empty()) warn_user(dropped);
         warn_of_held_indentation(results);
         BoundDampingCurve curve_of = over(cases, force.has_value());
         for (std::size_t i = 0; i < count; ++i)

@@ -349,7 +349,8 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   solution.results = results_of(law, cases, options, context);
   if (const auto warning = detail::warning_of_held_indentation(solution.results))
     solution.warnings.push_back(*warning);
-  std::string unknown;  // why the loss is unknown; the first reason found serves all cases
+  // Why a loss is unknown, or was dropped; the first reason found serves all cases.
+  std::string unknown, dropped;
   if (surface) resolve_on_surface(problem, pressures, material, context, solution);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -363,6 +364,10 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
       result.forget();
     else if (!surface)
       add_slip(result, law, one.motion, problem.parameters, problem.steps, context);
+    if (!surface && dropped.empty())
+      dropped = drop_uncertain(result);
+    else if (!surface)
+      drop_uncertain(result);
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
     solution.assumptions.push_back(
         assumptions_of_case(solution.contact, one, result, problem.parameters));
@@ -381,7 +386,8 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     warnings = warnings_of_path(drag->drag_velocity, drag->angular_frequency,
                                 spot_radius(problem.parameters, law, curve, result.indentation));
   }
-  if (!unknown.empty()) warnings.insert(warnings.begin(), unknown);
+  for (const std::string& why : {dropped, unknown})
+    if (!why.empty()) warnings.insert(warnings.begin(), why);
   solution.warnings.insert(solution.warnings.end(), warnings.begin(), warnings.end());
   return solution;
 }

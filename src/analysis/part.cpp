@@ -36,6 +36,10 @@ class LawOfPart final : public ContactLaw {
     return sample_->indentation_of(force / ratio_);
   }
   std::vector<double> break_points() const override { return sample_->break_points(); }
+  std::unique_ptr<const ContactLaw> coarser() const override {
+    std::shared_ptr<const ContactLaw> sample = sample_->coarser();
+    return sample ? std::make_unique<LawOfPart>(std::move(sample), ratio_) : nullptr;
+  }
 
  private:
   std::shared_ptr<const ContactLaw> sample_;

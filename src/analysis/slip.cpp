@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Computes the loss of a contact law with slip if the coefficient of friction is known.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <limits>
 #include <salebra/analysis/slip.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <variant>
 
-#include "damping/continued_law.hpp"
-#include "damping/max_motion.hpp"
+#include "damping/table_error.hpp"
 
 namespace salebra {
 
@@ -46,17 +49,15 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     };
     take(loss_of(law, result.indentation));
     result.power = closed_form::power(result.work_per_cycle, *drag);
-    if (!std::isfinite(law.lowest_indentation())) return;
-    // Springs slip below the oscillation too, where the law of a table is only continued.
-    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-    const double indentation =
-        result.hold == Hold::force
-            ? indentation_at_mean_force(other, result.mean_force, drag->normal_amplitude)
-            : result.indentation;
-    result.error_estimate +=
-        detail::change_below_table(law, result.work_per_cycle,
-                                   loss_of(other, indentation).work_per_cycle) *
-        result.work_per_cycle;
+    result.error = detail::error_of_table(
+        law, -std::numeric_limits<double>::infinity(), result.work_per_cycle, result.work_per_cycle,
+        [&](const ContactLaw& other) {
+          const double indentation =
+              result.hold == Hold::force
+                  ? indentation_at_mean_force(other, result.mean_force, drag->normal_amplitude)
+                  : result.indentation;
+          return loss_of(other, indentation).work_per_cycle;
+        });
   } else {
     const TrajectoryDamping cycle =
         cycle_of(law, motion, result.indentation, steps, friction, context).loss;
@@ -64,8 +65,20 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.power = cycle.power;
     result.storage_stiffness = cycle.storage_stiffness;
     result.loss_factor = cycle.loss_factor;
-    result.error_estimate += cycle.error_estimate;
+    result.error = cycle.error;
   }
+}
+
+std::string drop_uncertain(DampingResult& result) {
+  const bool had = !std::isnan(result.work_per_cycle);
+  static_cast<Loss&>(result).drop_uncertain();
+  if (!had || !std::isnan(result.work_per_cycle)) return {};
+  result.power = Loss::unknown;
+  return fmt::format(
+      "at {} there is no loss, because its error is larger than the loss: the loads of the curve "
+      "are too far apart for this motion; give a curve with loads closer to each other, or the "
+      "surface",
+      format_quantity(result.force, Dimension::force, 3));
 }
 
 DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,

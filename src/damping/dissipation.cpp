@@ -19,6 +19,7 @@
 #include "continued_law.hpp"
 #include "max_motion.hpp"
 #include "sweep_breaks.hpp"
+#include "table_error.hpp"
 
 namespace salebra {
 namespace {
@@ -283,17 +284,15 @@ DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, con
     };
     detail::require_possible(law, settled, amplitude, middle_at, result.hold);
     set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
-    if (detail::reaches_below_table(law, result.indentation - amplitude)) {
-      const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-      DampingResult by_other;
-      set_finite(
-          by_other, other,
-          mean_force ? indentation_at_mean_force(other, result.mean_force, amplitude) : settled,
-          kernel, 1e-7);
-      const double change =
-          detail::change_below_table(law, measure_of(result), measure_of(by_other));
-      result.error_estimate += change * std::abs(result.work_per_cycle);
-    }
+    result.error = result.error_without_slip = detail::error_of_table(
+        law, result.indentation - amplitude, result.work_per_cycle, measure_of(result),
+        [&](const ContactLaw& other) {
+          DampingResult by_other;
+          const double middle =
+              mean_force ? indentation_at_mean_force(other, result.mean_force, amplitude) : settled;
+          set_finite(by_other, other, middle, kernel, 1e-7);
+          return measure_of(by_other);
+        });
   }
   result.small_amplitude_work = small_factor * kernel.square_velocity;
   return result;

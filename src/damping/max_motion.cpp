@@ -118,21 +118,6 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
     require_possible_exponential(length, rest, mean_indentation, amplitude, "");
 }
 
-bool reaches_below_table(const ContactLaw& law, double lowest) {
-  const double end = law.lowest_indentation();
-  return std::isfinite(end) && lowest < end - 1e-12 * std::abs(end);
-}
-
-double change_below_table(const ContactLaw& law, double loss, double loss_by_exponential) {
-  const double change = loss == loss_by_exponential ? 0 : std::abs(loss_by_exponential / loss - 1);
-  if (change <= max_change_below) return change;
-  throw InvalidInput(
-      "curve",
-      fmt::format("begins at {}, and the part of the motion below this load decides on the "
-                  "loss; extend the curve to lower loads, or reduce the amplitude",
-                  in_words(law.force(law.lowest_indentation()), Dimension::force)));
-}
-
 std::optional<std::string> warning_of_held_indentation(std::span<const DampingResult> results) {
   constexpr double max_ratio = 2;
   double worst = max_ratio;

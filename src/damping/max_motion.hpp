@@ -45,16 +45,6 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
 /// `rest` be pressed.
 double possible_indentation(const ContactLaw& law, double rest, double asked);
 
-/// Returns whether a motion down to the indentation `lowest` leaves the samples of a table, where
-/// the law is only a continuation.
-bool reaches_below_table(const ContactLaw& law, double lowest);
-
-/// Returns the relative change of a loss if the table of `law` continues exponentially below its
-/// lowest sample. Throws InvalidInput if the change exceeds max_change_below: the loss then depends
-/// on loads that the table does not have.
-double change_below_table(const ContactLaw& law, double loss, double loss_by_exponential);
-constexpr double max_change_below = 0.2;
-
 /// Returns a warning if the mean indentation is held and the mean force of a result exceeds twice
 /// the force without oscillation; a preloaded machine would hold the force. The warning describes
 /// the result with the largest ratio. Reads only `hold`, `force` and `mean_force` of the results.

@@ -9,8 +9,8 @@
 
 #include "base/special_values.hpp"
 #include "base/stop_check.hpp"
-#include "continued_law.hpp"
 #include "max_motion.hpp"
+#include "table_error.hpp"
 
 namespace salebra {
 namespace {
@@ -158,14 +158,10 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   path.validate();
   TrajectoryDamping result = followed(law, path, options);
   const bool slips = std::isfinite(options.friction_coefficient);
-  if (!std::isfinite(law.lowest_indentation()) ||
-      !(slips || detail::reaches_below_table(law, std::ranges::min(path.indentation))))
-    return result;
-  const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-  result.error_estimate =
-      detail::change_below_table(law, result.work_per_cycle,
-                                 followed(other, path, options).work_per_cycle) *
-      result.work_per_cycle;
+  result.error = detail::error_of_table(
+      law, slips ? -detail::infinity : std::ranges::min(path.indentation), result.work_per_cycle,
+      result.work_per_cycle,
+      [&](const ContactLaw& other) { return followed(other, path, options).work_per_cycle; });
   return result;
 }
 
@@ -178,7 +174,8 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   TrajectoryDamping other = trajectory_damping(law, across);
   result.work_per_cycle += other.work_per_cycle;
   result.relaxation_work += other.relaxation_work;
-  result.error_estimate += other.error_estimate;
+  for (double ErrorBudget::*const part : {&ErrorBudget::intervals, &ErrorBudget::first_touch})
+    result.error.*part += other.error.*part;
   for (std::size_t i = 0; i < result.dissipated.size(); ++i)
     result.dissipated[i] += other.dissipated[i];
   result.memory = std::max(result.memory, other.memory);

@@ -31,6 +31,10 @@ std::string why_loss_unknown(const Motion& motion, const ContactParameters& para
 void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
               const ContactParameters& parameters, int steps = 2000, const Context& context = {});
 
+/// Removes a loss that came from a curve and is no larger than its error, and returns a sentence
+/// that says so; empty if the loss stays.
+std::string drop_uncertain(DampingResult& result);
+
 /// One period of a motion about a mean indentation, and the loss along it: the data of a plot.
 struct DampingCycle {
   SampledMotion path;

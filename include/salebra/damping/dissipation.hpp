@@ -66,9 +66,8 @@ struct DampingResult : Loss {
   /// Stiffness in phase with the motion, N/m, and loss factor. Known only if the friction loop was
   /// computed step by step; NaN otherwise.
   double storage_stiffness = unknown, loss_factor = unknown;
-  /// Error of work_per_cycle, J: quadrature, round-off, and below the lowest sample of a table the
-  /// change of the loss if the table continues exponentially. It does not contain the errors of the
-  /// law itself.
+  /// Error of the quadrature of work_per_cycle and of round-off, J. For a table, `error` has the
+  /// errors by the distances between its samples and by its part below them, and 0 for other causes.
   double error_estimate = unknown;
   /// Whether the quadratures reached the tolerance; if false, work_per_cycle must not be used.
   bool converged = false;
@@ -98,12 +97,10 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
              force_curvature});
   visit(&S::storage_stiffness, WhereKnown{quantity::storage_stiffness});
   visit(&S::loss_factor, WhereKnown{quantity::loss_factor});
-  visit(
-      &S::error_estimate,
-      Kept{"error_estimate",
-           "estimated error of the energy dissipated in a cycle, of quadrature, round-off and the "
-           "part below the lowest load of a curve",
-           energy});
+  visit(&S::error_estimate,
+        Kept{"error_estimate",
+             "estimated error of the energy dissipated in a cycle, of quadrature and round-off",
+             energy});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
   visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/progress.hpp>
+#include <salebra/damping/loss.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <salebra/damping/tangential_contact.hpp>
@@ -19,14 +20,15 @@ struct TrajectoryDampingOptions {
 /// Steady state of a contact under a periodic motion.
 struct TrajectoryDamping {
   double work_per_cycle = 0;  ///< energy lost per period, J
+  double work_per_cycle_error() const { return error.total(); }
   /// Part of work_per_cycle lost by springs that open and close (all of it in full stick), J.
   double relaxation_work = 0;
   /// Part of work_per_cycle lost by springs in permanent contact, J: the slip loss of Cattaneo and
   /// Mindlin.
   double slip_work = 0;
-  /// Change of work_per_cycle, J, if a table continues exponentially below its lowest sample; 0 if
-  /// the springs below it do not lose anything. The steps of the trajectory are taken as exact.
-  double error_estimate = 0;
+  /// Errors of work_per_cycle by the samples of a table; unknown for other laws. The steps of the
+  /// trajectory are taken as exact.
+  ErrorBudget error = {};
   double power = 0;             ///< work_per_cycle divided by the period, W
   double damping_constant = 0;  ///< γ = P/⟨ẋ²⟩, N s/m; NaN for a motion without ẋ
   /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion
@@ -51,7 +53,7 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
-  visit(&S::error_estimate, quantity::error_estimate);
+  visit(&S::work_per_cycle_error, WhereKnown{quantity::work_per_cycle_error});
   visit(&S::power, quantity::power);
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::storage_stiffness, quantity::storage_stiffness);

@@ -36,6 +36,8 @@ double ContactLaw::highest_indentation() const { return std::numeric_limits<doub
 
 std::vector<double> ContactLaw::break_points() const { return {}; }
 
+std::unique_ptr<const ContactLaw> ContactLaw::coarser() const { return nullptr; }
+
 std::vector<double> PowerLaw::break_points() const { return {0}; }
 
 PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
@@ -107,6 +109,7 @@ struct TabulatedLaw::Splines {
   std::unique_ptr<const detail::MonotoneHermite> log_tangential_stiffness;  // null: (G*/E*)K
   // At the first sample: F, K and K_t (0 if the law has no K_t of its own).
   double force = 0, stiffness = 0, tangential = 0;
+  bool slopes_given = false;  // whether the samples have K
 
   double first_touch() const { return log_force.front() - 1.5 * force / stiffness; }
   // s = (δ − δ_t)/(δ1 − δ_t) between first touch and the first sample, 0 if the bodies are apart;
@@ -194,6 +197,7 @@ TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
   auto splines = std::make_unique<Splines>(
       Splines{detail::MonotoneHermite(indentation, std::move(log_force), std::move(slope)), {}});
   const double first = columns.front().indentation;
+  splines->slopes_given = has_normal;
   splines->force = columns.front().force;
   splines->stiffness = splines->force * splines->log_force.at(first).slope;
   if (has_tangential) {
@@ -259,6 +263,23 @@ std::vector<double> TabulatedLaw::break_points() const {
   std::vector<double> points = splines_->log_force.nodes();
   points.insert(points.begin(), first_touch());
   return points;
+}
+
+std::unique_ptr<const ContactLaw> TabulatedLaw::coarser() const {
+  const std::vector<double>& nodes = splines_->log_force.nodes();
+  constexpr std::size_t least = 7;  // so that four are left
+  if (nodes.size() < least) return nullptr;
+  ForceCurve curve;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i % 2 == 1 && i + 1 < nodes.size()) continue;
+    ForceSample& sample = curve.samples.emplace_back();
+    sample.indentation = nodes[i];
+    sample.force = force(nodes[i]);
+    if (splines_->slopes_given) sample.normal_stiffness = normal_stiffness(nodes[i]);
+    if (splines_->log_tangential_stiffness)
+      sample.tangential_stiffness = tangential_stiffness(nodes[i]);
+  }
+  return std::make_unique<TabulatedLaw>(curve, modulus_ratio());
 }
 
 double TabulatedLaw::indentation_of(double force) const {

@@ -44,6 +44,11 @@ class ContactLaw {
   /// to jump. Quadratures over δ converge fast between these points.
   virtual std::vector<double> break_points() const;
 
+  /// The same law through every other sample of its table, the first and the last included: what it
+  /// changes shows the error by the distances between the samples. Null for a law that is not a
+  /// table and for a table of fewer than seven samples.
+  virtual std::unique_ptr<const ContactLaw> coarser() const;
+
   double modulus_ratio() const { return modulus_ratio_; }
 
  private:
@@ -115,6 +120,7 @@ class TabulatedLaw final : public ContactLaw {
   double indentation_of(double force) const override;
   /// First touch and the indentations of the samples.
   std::vector<double> break_points() const override;
+  std::unique_ptr<const ContactLaw> coarser() const override;
 
  private:
   struct Splines;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/damping/loss.hpp>
+
+namespace salebra::detail {
+
+/// Returns the errors of a loss that was computed from the law of a table, J: `intervals` is the
+/// change of the loss without every other sample, `first_touch` its change if the table continues
+/// exponentially below its lowest sample. Unknown for a law that is not a table. Throws InvalidInput
+/// if the springs below the lowest sample decide on the loss, so that it is a guess.
+/// lowest    lowest indentation of the springs that lose energy; −infinity: all of them
+/// work      the loss, J
+/// measure   the loss as loss_of() returns it, in any unit
+/// loss_of   computes the loss of another law
+ErrorBudget error_of_table(const ContactLaw& law, double lowest, double work, double measure,
+                           const std::function<double(const ContactLaw&)>& loss_of);
+
+}  // namespace salebra::detail
