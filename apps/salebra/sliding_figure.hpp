@@ -14,7 +14,7 @@ Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction);
 /// amplitude.
 Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingProblem& problem);
 /// Loss with slip divided by the loss without slip, over velocity and excursion, with the borders
-/// of the regimes (no slip, partial slip, sliding). omega: angular frequency, rad/s.
+/// of the regimes (no slip, partial slip, lifts off, sliding). omega: angular frequency, rad/s.
 Figure regime_figure(const RegimeMap& map, double omega);
 /// Velocity and spring force of a slider over the time, by the full and by the averaged equation.
 /// stiffness: of its spring, N/m.

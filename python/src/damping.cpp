@@ -115,7 +115,7 @@ void bind_damping_result(nb::module_& m) {
       m, "DampingResult", "Damping of one contact under one motion; unknown numbers are NaN.");
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
            std::type_identity<DampingResult>{});
-  bound.def_prop_ro("regime", &regime_of, "no slip, partial slip, sliding or unknown.");
+  bound.def_prop_ro("regime", &regime_of, "no slip, partial slip, lifts off, sliding or unknown.");
   bound.def_prop_ro(
       "validity", [](const BoundDamping& self) { return validity_of_losses({&self, 1}); },
       "One word for the assumptions of this loss; where it includes slip, slip is no assumption.");

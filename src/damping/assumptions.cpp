@@ -381,8 +381,18 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
           first_crossings([&](double x) { return springs.change(x); }, shortest, longest)};
 }
 
-// In gross sliding, springs that still stick may carry this fraction of the minimum normal force.
+// In gross sliding, springs that still stick may carry this fraction of the mean normal force.
 constexpr double stuck_share = 0.05;
+
+// Cycle mean of the force under δ = mean + amplitude cosθ. The regime needs no more digits than the
+// trapezoidal rule gives.
+double mean_force_of(const ContactLaw& law, double mean, double amplitude) {
+  constexpr int phases = 64;
+  double sum = 0;
+  for (int i = 0; i < phases; ++i)
+    sum += law.force(mean + amplitude * std::cos(pi * (i + 0.5) / phases));
+  return sum / phases;
+}
 
 // Returns whether (almost) all springs slip. Lengths are in units of μ/g. displacement: u_x under
 // oscillation at equal frequency, v/ω under a drag. excursion: distance between the turning points
@@ -391,11 +401,11 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
             double excursion, double stick) {
   const double bottom = motion.mean - motion.amplitude, top = motion.mean + motion.amplitude;
   const double least = law.force(bottom);
+  const double stuck = stuck_share * mean_force_of(law, motion.mean, motion.amplitude);
   // All springs open in each cycle. In an oscillation a spring of depth ζ slips in both halves of
   // the cycle if the displacement exceeds its largest stretch limit δ_max − ζ.
   if (!(least > 0))
-    return motion.drag ? displacement >= motion.amplitude
-                       : law.force(top - displacement) <= stuck_share * law.force(top);
+    return motion.drag ? displacement >= motion.amplitude : law.force(top - displacement) <= stuck;
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
     // A spring of depth ζ sticks if one anchor stays within the stretch limit δ − ζ of x at all
@@ -408,7 +418,7 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
     }
     deepest = 0.5 * (low - high);
   }
-  if (law.force(deepest) > stuck_share * least) return false;
+  if (law.force(deepest) > stuck) return false;
   // A drag slower than v_c: the springs that open stick while they are closed, and their loss grows
   // with v. It is gross sliding only if the springs that never open lose more than these.
   return !motion.drag || displacement >= motion.amplitude ||
@@ -633,7 +643,7 @@ std::vector<MaxMotion> max_motions(const JudgedMotion& motion, const ContactPara
   return motions;
 }
 
-// Decides between no slip, partial slip and sliding: first by the verdicts on slip of the springs
+// Decides between no slip, partial slip, lift-off and sliding: first by the verdicts on slip of the springs
 // that open and of those that never open, then by slides(). stretch: μ/g. stick: loss without slip
 // for a tangential displacement of 1.
 Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assumptions& assumptions,
@@ -642,10 +652,12 @@ Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assump
   const Assumption& closed = assumptions.slip_of_closed_springs;
   if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
     return assumptions.regime;
-  if (opening.verdict == Verdict::holds && closed.verdict == Verdict::holds) return Regime::no_slip;
-  return slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick)
-             ? Regime::sliding
-             : Regime::partial_slip;
+  const bool sticks = opening.verdict == Verdict::holds && closed.verdict == Verdict::holds;
+  if (!sticks &&
+      slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick))
+    return Regime::sliding;
+  if (motion.mean - motion.amplitude < law.first_touch()) return Regime::lifts_off;
+  return sticks ? Regime::no_slip : Regime::partial_slip;
 }
 
 Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
@@ -823,23 +835,26 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const JudgedMotion motion = case_of(law, mean_indentation, drag);
   const double limit = friction_coefficient / law.stiffness_ratio(mean_indentation);
   const double bottom = mean_indentation - amplitude;
+  const double stuck = stuck_share * mean_force_of(law, mean_indentation, amplitude);
   const double length = length_of(law, mean_indentation, amplitude);
   const DampingResult without = detail::damping_about(given, mean_indentation, drag, 1e-10);
   const SlipLimits slip = slip_limits(law, motion, length);
   const double cost = cost_of_turning(law, mean_indentation, amplitude);
+  const bool lifts_off = bottom < law.first_touch();
 
   const auto rows = static_cast<Index>(velocities.size());
   const auto columns = static_cast<Index>(excursions.size());
-  RegimeMap map{.velocity = velocities,
-                .excursion = excursions,
-                .regime = {},
-                .loss_ratio = Field::Constant(rows, columns, unknown),
-                .slip_ratio = Field::Constant(rows, columns, unknown),
-                .no_slip_excursion = {},
-                .no_slip_velocity = limit * slip.displacements.five * omega,
-                .sliding_excursion = 2 * limit * depth_of_share(law, bottom, stuck_share),
-                .critical_velocity = limit * amplitude * omega,
-                .full_stick_ratio = without.work_per_cycle / without.small_amplitude_work};
+  RegimeMap map{
+      .velocity = velocities,
+      .excursion = excursions,
+      .regime = {},
+      .loss_ratio = Field::Constant(rows, columns, unknown),
+      .slip_ratio = Field::Constant(rows, columns, unknown),
+      .no_slip_excursion = {},
+      .no_slip_velocity = limit * slip.displacements.five * omega,
+      .sliding_excursion = 2 * limit * depth_of_share(law, bottom, stuck / law.force(bottom)),
+      .critical_velocity = limit * amplitude * omega,
+      .full_stick_ratio = without.work_per_cycle / without.small_amplitude_work};
   if (velocities.empty()) return map;
   Springs springs(law, *motion.path, false,
                   2 * pi * std::ranges::max(velocities) / (limit * omega));
@@ -858,10 +873,11 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
         regimes.push_back(Regime::unknown);
         continue;
       }
-      regimes.push_back(may_stick && !(excursion > limits.five) ? Regime::no_slip
-                        : slides(law, motion, displacement, excursion, slip.stick)
-                            ? Regime::sliding
-                            : Regime::partial_slip);
+      regimes.push_back(may_stick && !(excursion > limits.five)
+                            ? (lifts_off ? Regime::lifts_off : Regime::no_slip)
+                        : slides(law, motion, displacement, excursion, slip.stick) ? Regime::sliding
+                        : lifts_off ? Regime::lifts_off
+                                    : Regime::partial_slip);
       if (!(stick > 0)) continue;
       map.slip_ratio(i, j) = closed.loss_per_cycle(excursion) / stick;
       map.loss_ratio(i, j) =

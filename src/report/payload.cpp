@@ -132,7 +132,7 @@ class Point {
     return has("damping/" + name) ? name : loss;
   }
 
-  /// The name of the regime (no slip, partial slip, sliding) at each pressure.
+  /// The name of the regime (no slip, partial slip, lifts off, sliding) at each pressure.
   Json regimes() const {
     Json words = Json::array();
     for (const double value : part(solution("regime"), 0, pressures_.size())) {

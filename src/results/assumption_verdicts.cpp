@@ -239,8 +239,8 @@ std::string in_words(std::span<const AssumptionVerdict> verdicts) {
 std::string regimes_in_words(std::span<const Assumptions> cases,
                              std::span<const double> pressures) {
   std::string text;
-  for (const Regime regime :
-       {Regime::sliding, Regime::partial_slip, Regime::no_slip, Regime::unknown}) {
+  for (const Regime regime : {Regime::sliding, Regime::lifts_off, Regime::partial_slip,
+                              Regime::no_slip, Regime::unknown}) {
     std::vector<bool> here;
     for (const Assumptions& assumptions : cases) here.push_back(assumptions.regime == regime);
     const auto count = std::ranges::count(here, true);

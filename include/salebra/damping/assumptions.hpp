@@ -127,11 +127,11 @@ constexpr void describe(auto&& visit, std::type_identity<Assumption>) {
         Kept{"needs", "keyword of ContactParameters that a verdict needs; empty where none does"});
 }
 
-/// Extent of slip in a contact.
+/// Extent of slip in a contact, and whether it lifts off.
 enum class Regime {
   no_slip,       ///< both assumptions of no slip hold: slip changes the loss by at most 5 %
   partial_slip,  ///< some springs slip, others that carry part of the force stick
-  /// All springs slip except those that carry less than 5 % of the smallest normal force. If the
+  /// All springs slip except those that carry less than 5 % of the mean normal force. If the
   /// contact opens in each cycle, sliding means that no spring ever sticks; in case (b) this
   /// happens at velocities v >= v_c = (μ/g) u_z ω with g = K_t/K. For v < v_c, case (b) counts as
   /// sliding only if the slip of closed springs loses more energy than the relaxation of springs
@@ -139,7 +139,9 @@ enum class Regime {
   sliding,
   /// A parameter is missing; or the excursion of case (b) is shorter than the distance travelled
   /// per normal cycle, so that the motion is not slow.
-  unknown
+  unknown,
+  /// The contact lifts off in every cycle, and does not slide as a whole while it touches.
+  lifts_off
 };
 template <>
 struct EnumNames<Regime> {
@@ -147,7 +149,8 @@ struct EnumNames<Regime> {
       std::to_array<std::pair<Regime, std::string_view>>({{Regime::no_slip, "no slip"},
                                                           {Regime::partial_slip, "partial slip"},
                                                           {Regime::sliding, "sliding"},
-                                                          {Regime::unknown, "unknown"}});
+                                                          {Regime::unknown, "unknown"},
+                                                          {Regime::lifts_off, "lifts off"}});
 };
 
 /// Largest motion at which slip with a given coefficient of friction changes the loss by at most 5
@@ -248,7 +251,7 @@ constexpr void describe(auto&& visit, std::type_identity<Assumptions>) {
   visit(&S::plasticity, Kept{"plasticity", "plasticity"});
   visit(&S::inertia, Kept{"inertia", "inertia"});
   visit(&S::coupling, Kept{"coupling", "coupling"});
-  visit(&S::regime, Kept{"regime", "no slip, partial slip, sliding or unknown"});
+  visit(&S::regime, Kept{"regime", "no slip, partial slip, lifts off, sliding or unknown"});
   visit(&S::largest, Kept{"largest",
                           "largest motions that keep the assumptions of slip to 5 %, of the "
                           "coefficient of friction that is known or of 0.1, 0.3 and 1"});
