@@ -3,16 +3,16 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <salebra/damping/contact_element.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
-#include <initializer_list>
 #include <vector>
 
-// Results of others (docs/published.md) from sums over springs of this file, which share nothing
-// with the library.
+// Results of others (docs/published.md) from sums over springs of this file, which take nothing but
+// K_t(δ) from the library.
 
 using namespace salebra;
 
@@ -68,7 +68,8 @@ double mean_force(const ContactLaw& law, double indentation, double drift, doubl
     std::array<double, 2> anchor = {(across ? 0 : swing) - limit, 0};
     double mean = 0;
     for (int k = 1; k <= 3 * steps; ++k) {
-      const double t = 2 * pi * k / steps, x = drift * k / steps + (across ? 0 : swing * std::cos(t));
+      const double t = 2 * pi * k / steps,
+                   x = drift * k / steps + (across ? 0 : swing * std::cos(t));
       const double y = across ? swing * std::sin(t) : 0;
       const double stretch = std::hypot(x - anchor[0], y - anchor[1]);
       if (stretch > limit)
@@ -126,7 +127,8 @@ TEST_CASE("Small harmonic loads lose the same function of ratio and phase on eve
   const PowerLaw sphere(1e9, 1.5, ratio);
   const PowerLaw rough(1e7, 1 / 0.8, ratio);
   const ExponentialLaw summits(1, 1e-7, ratio);
-  for (const ContactLaw* law : std::initializer_list<const ContactLaw*>{&sphere, &rough, &summits}) {
+  for (const ContactLaw* law :
+       std::initializer_list<const ContactLaw*>{&sphere, &rough, &summits}) {
     const double indentation = law->indentation_of(1);
     const double stiffness = law->normal_stiffness(indentation);
     // d²δ/dF² = −K'/K³
@@ -135,10 +137,10 @@ TEST_CASE("Small harmonic loads lose the same function of ratio and phase on eve
     for (const double s : {0.1, 0.5, 2.0})
       for (const double phase : {0.0, pi / 3, pi / 2}) {
         CAPTURE(s, phase);
-        const JointLoss loss = joint_loss(
-            *law, at_force(1),
-            JointMotion{TangentialForce{s * friction * small}, small / stiffness, phase}, friction,
-            400);
+        const JointLoss loss =
+            joint_loss(*law, at_force(1),
+                       JointMotion{TangentialForce{s * friction * small}, small / stiffness, phase},
+                       friction, 400);
         // Steps of 400 to the period displace the ends of slip: 0.3 %, of the largest loss where the
         // loss vanishes.
         CHECK(loss.work_per_cycle / unit ==
@@ -165,8 +167,8 @@ TEST_CASE("Vibration along or across the motion lowers friction as springs have 
         const double drift = 2 * pi * speed * swing;
         const double along = path_mean_force(*law, indentation, drift, swing);
         // The 400 springs of the sum err by 1e-4 of sliding friction.
-        CHECK(along == Approx(mean_force(*law, indentation, drift, swing, false))
-                           .margin(1e-3 * sliding));
+        CHECK(along ==
+              Approx(mean_force(*law, indentation, drift, swing, false)).margin(1e-3 * sliding));
         if (speed > 1) CHECK(along == Approx(sliding).epsilon(1e-9));
         const double across = element_mean_force(*law, indentation, drift, swing);
         CHECK(across ==
