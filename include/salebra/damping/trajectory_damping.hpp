@@ -53,6 +53,7 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
+  visit(&S::error, Kept{"error", "error of work_per_cycle by the samples of a table"});
   visit(&S::work_per_cycle_error, WhereKnown{quantity::work_per_cycle_error});
   visit(&S::power, quantity::power);
   visit(&S::damping_constant, quantity::damping_constant);
