@@ -358,7 +358,7 @@ TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipat
   }
   // Where all of the motion lies below the table, nothing is known.
   CHECK_THROWS_WITH(relaxation_damping(law, at_indentation(-4.5e-7), slow_drag(0.3e-7)),
-                    Catch::Contains("curve: begins at"));
+                    Catch::Contains("is its lowest load"));
 }
 
 TEST_CASE("A damping curve is its cases one by one", "[dissipation]") {
