@@ -113,7 +113,8 @@ struct TabulatedLaw::Splines {
   // empty within the samples.
   std::optional<double> share_below(double indentation) const {
     if (!(indentation < log_force.front())) return {};
-    return std::max(0.0, 1 - (log_force.front() - indentation) * stiffness / (1.5 * force));
+    const double touch = first_touch();
+    return std::max(0.0, (indentation - touch) / (log_force.front() - touch));
   }
 
   double clamp(double indentation) const {
