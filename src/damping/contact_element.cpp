@@ -52,8 +52,10 @@ std::vector<double> depths(double first, double last, int count) {
 }
 
 // Where the mean K_t of an interval falls from one interval to the next, these share the mean of
-// their K_t. This may change G = ∫K_t dζ by at most this fraction, the noise of a good measurement.
-constexpr double max_change = 0.03;
+// their K_t. This may change G = ∫K_t dζ by at most max_change of it, the noise of a good
+// measurement. Where G is smaller than `small` times that at the highest indentation, it may change
+// by as much as there: the noise of the lowest load of a curve is also that of its first touch.
+constexpr double max_change = 0.03, small = 0.01;
 
 // Values (low, high) and slopes of an increasing function at the two ends of an interval.
 struct Ends {
@@ -195,6 +197,7 @@ void LawSprings::set_tangential(const ContactLaw& law) {
     proportional = proportional && law.stiffness_ratio(node_[i]) == law.modulus_ratio();
   }
   std::vector<double> means, widths;
+  double whole = 0;
   for (std::size_t i = 1; i < node_.size(); ++i) {
     widths.push_back(node_[i] - node_[i - 1]);
     const double gain =
@@ -203,12 +206,12 @@ void LawSprings::set_tangential(const ContactLaw& law) {
                                          detail::sweep_breaks(law, node_[i - 1], node_[i]), 1e-10)
                            .value;
     means.push_back(gain / widths.back());
+    whole += gain;
   }
   const std::vector<double> pooled = rising(means, widths);
   for (std::size_t i = 0; i < node_.size(); ++i) {
     const double below = i > 0 ? pooled[i - 1] : 0,
-                 above = i < pooled.size() ? pooled[i]
-                                           : std::max(below, stiffness[i]);
+                 above = i < pooled.size() ? pooled[i] : std::max(below, stiffness[i]);
     sum_.push_back(std::clamp(stiffness[i], below, above));
   }
   const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];
@@ -218,13 +221,13 @@ void LawSprings::set_tangential(const ContactLaw& law) {
     const double width = widths[i - 1], rise = sum_[i] - sum_[i - 1];
     // A spring represents all springs between two nodes, so its depth must lie between these nodes.
     constexpr double edge = 1e-3;
-    const double within =
-        std::clamp(pooled[i - 1] - sum_[i - 1], edge * rise, (1 - edge) * rise);
+    const double within = std::clamp(pooled[i - 1] - sum_[i - 1], edge * rise, (1 - edge) * rise);
     stiffness_.push_back(rise);
     depth_.push_back(rise > 0 ? node_[i] - width * (within / rise) : node_[i]);
     held_.push_back(held_.back() + width * (sum_[i - 1] + within));
     exact += width * means[i - 1];
-    require(std::abs(held_[i] - exact) <= max_change * exact, "law", node_[i],
+    require(std::abs(held_[i] - exact) <= max_change * std::max(exact, small * whole), "law",
+            node_[i],
             "m lies where the tangential stiffness falls by more than scatter, and springs cannot "
             "follow; smooth the curve, or leave out the loads near it");
   }

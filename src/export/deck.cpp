@@ -169,10 +169,9 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
       // Because of rounding, the ends of the range may lie outside the range of the contact, and a
       // row at first touch may have a force.
       const bool at_lowest = clearance[row] >= contact.clearance_origin - contact.lowest;
-      const double indentation =
-          at_lowest ? contact.lowest
-                    : std::clamp(contact.clearance_origin - clearance[row], contact.lowest,
-                                 contact.highest);
+      const double indentation = at_lowest ? contact.lowest
+                                           : std::clamp(contact.clearance_origin - clearance[row],
+                                                        contact.lowest, contact.highest);
       law.pressure[row] += weight * contact.law->force(indentation);
       law.normal_stiffness[row] += weight * contact.law->normal_stiffness(indentation);
       if (tangential)

@@ -74,7 +74,8 @@ const DeckWriter& writer_of(DeckFormat format);
 struct SliderSet {
   std::vector<Slider> sliders;
   double stiffness = 0, force = 0;  ///< sums over all sliders, N/m and N
-  double resolved = 0;  ///< tangential force, over μF, beyond which one slider holds all that sticks
+  double resolved =
+      0;  ///< tangential force, over μF, beyond which one slider holds all that sticks
   double loss_error = 0;  ///< relative error of the loss per cycle at the smallest tangential force
 };
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,

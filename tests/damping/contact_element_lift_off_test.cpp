@@ -39,7 +39,7 @@ struct Summits {
   int loads;
   double lowest_share;
   bool own_tangential_stiffness = false;  ///< K_t/K falls from 0.95 to 0.8
-  double noise = 0;                       ///< largest relative error of F, which then comes without K
+  double noise = 0;  ///< largest relative error of F, which then comes without K
 };
 
 ForceCurve curve_of(const Summits& table) {
@@ -53,7 +53,8 @@ ForceCurve curve_of(const Summits& table) {
     ForceSample sample{.indentation = -3e-7 * (separation - 1.5),
                        .force = force * (1 + table.noise * (2 * random() - 1))};
     if (!(table.noise > 0)) sample.normal_stiffness = stiffness;
-    if (table.own_tangential_stiffness) sample.tangential_stiffness = stiffness * (0.95 - 0.15 * part);
+    if (table.own_tangential_stiffness)
+      sample.tangential_stiffness = stiffness * (0.95 - 0.15 * part);
     curve.samples.push_back(sample);
   }
   return curve;
@@ -74,7 +75,8 @@ ForceCurve rough_surface_curve() {
         for (Index iy = 0; iy < grid.ny; ++iy)
           surface.heights(ix, iy) +=
               amplitude *
-              std::cos(2 * pi * (kx * double(ix) / double(grid.nx) + ky * double(iy) / double(grid.ny)) +
+              std::cos(2 * pi *
+                           (kx * double(ix) / double(grid.nx) + ky * double(iy) / double(grid.ny)) +
                        phase);
     }
   std::vector<double> pressures;
@@ -179,7 +181,8 @@ RandomMotion random_motion(Random& random, const ContactLaw& law, double highest
 
 struct Errors {
   double normal = 0;  ///< of F, over F at the highest indentation
-  double force = 0, loss = 0;  ///< of the tangential force over μ times this F; of the loss of a cycle
+  double force = 0,
+         loss = 0;  ///< of the tangential force over μ times this F; of the loss of a cycle
   void join(const Errors& other) {
     normal = std::max(normal, other.normal), force = std::max(force, other.force);
     loss = std::max(loss, other.loss);
@@ -190,8 +193,8 @@ struct Errors {
 /// against the plain sum.
 Errors errors_of(const ContactLaw& law, const RandomMotion& motion, int count, bool exact) {
   const double touch = law.first_touch(), friction = motion.friction;
-  ContactElement element(std::make_shared<const LawSprings>(
-      law, motion.lowest, motion.highest, LawSpringsOptions{friction, count}));
+  ContactElement element(std::make_shared<const LawSprings>(law, motion.lowest, motion.highest,
+                                                            LawSpringsOptions{friction, count}));
   const double decay = law.force(motion.highest) / law.normal_stiffness(motion.highest);
   // Below 35 decay lengths an exponential law has a force of 1e-15 of the highest.
   const double bottom = std::isfinite(touch) ? touch : motion.highest - 35 * decay;
@@ -299,8 +302,8 @@ TEST_CASE("On random motions through lift-off an element follows its law and Cou
   WARN("of " << motions << " motions " << parted << " part; normal " << by_sum[0].normal << ' '
              << by_sum[1].normal << ", sum: force " << by_sum[0].force << ' ' << by_sum[1].force
              << ", loss " << by_sum[0].loss << ' ' << by_sum[1].loss << ", contact: force "
-             << by_contact[0].force << ' ' << by_contact[1].force << ", loss "
-             << by_contact[0].loss << ' ' << by_contact[1].loss);
+             << by_contact[0].force << ' ' << by_contact[1].force << ", loss " << by_contact[0].loss
+             << ' ' << by_contact[1].loss);
   CHECK(parted > motions / 4);
   CHECK(parted < motions * 3 / 4);
 }
@@ -316,8 +319,8 @@ TEST_CASE("An element is open exactly where its law is, and has the law's force 
     const double highest = law.highest_indentation();
     CAPTURE(touch, first, highest);
     for (const double lowest : {touch - 1e-5, touch, 0.5 * (touch + first), first, highest}) {
-      ContactElement element(std::make_shared<const LawSprings>(law, lowest, highest,
-                                                                LawSpringsOptions{0.3, 64}));
+      ContactElement element(
+          std::make_shared<const LawSprings>(law, lowest, highest, LawSpringsOptions{0.3, 64}));
       element.start(highest, 0, 0);
       for (const double at : {touch, touch - 1e-12, touch - 1e-6}) {
         const ElementForces apart = element.move_to(at, 1e-7, 2e-7);
@@ -379,16 +382,17 @@ TEST_CASE("Through lift-off an element loses what a damper and a joint of its la
           const auto off = [](double found, double expected) {
             return std::abs(found / expected - 1);
           };
-          const double stuck = off(
-              loop(INFINITY), relaxation_damping(*law, at_indentation(middle), motion).work_per_cycle);
+          const double stuck =
+              off(loop(INFINITY),
+                  relaxation_damping(*law, at_indentation(middle), motion).work_per_cycle);
           const double work = loop(friction);
           const double slipped =
               off(work, loss_with_slip(*law, middle, motion, friction).work_per_cycle);
-          const double joint = off(
-              work, joint_loss(*law, at_indentation(middle),
-                               JointMotion{TangentialAmplitude{travel}, motion.normal_amplitude, phase},
-                               friction)
-                        .work_per_cycle);
+          const double joint = off(work, joint_loss(*law, at_indentation(middle),
+                                                    JointMotion{TangentialAmplitude{travel},
+                                                                motion.normal_amplitude, phase},
+                                                    friction)
+                                             .work_per_cycle);
           worst_stick = std::max(worst_stick, stuck), worst_slip = std::max(worst_slip, slipped);
           worst_joint = std::max(worst_joint, joint);
           CHECK(stuck < 0.005);

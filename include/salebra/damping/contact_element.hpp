@@ -40,7 +40,8 @@ class LawSprings {
   ///                   `highest` the force continues along its tangent
   /// throws            InvalidInput for options out of range, for a `highest` that the law does not
   ///                   cover or where F is 0, and for a K_t that falls with δ by more than scatter,
-  ///                   i.e. if its rising mean changes ∫K_t dζ at a node by more than 3 %
+  ///                   i.e. if its rising mean changes ∫K_t dζ at a node by more than 3 %, or 3e-4
+  ///                   of that at `highest`
   LawSprings(const ContactLaw& law, double lowest, double highest,
              const LawSpringsOptions& options = {});
 
