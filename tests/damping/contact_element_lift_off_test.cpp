@@ -183,10 +183,6 @@ struct Errors {
   double normal = 0;  ///< of F, over F at the highest indentation
   double force = 0,
          loss = 0;  ///< of the tangential force over μ times this F; of the loss of a cycle
-  void join(const Errors& other) {
-    normal = std::max(normal, other.normal), force = std::max(force, other.force);
-    loss = std::max(loss, other.loss);
-  }
 };
 
 /// Errors of an element in the second cycle of a motion. exact: against TangentialContact, else
@@ -253,6 +249,7 @@ struct NamedLaw {
   const char* name;
   std::shared_ptr<const ContactLaw> law;
   double highest;
+  bool own_tangential_stiffness = false;
 };
 
 std::vector<NamedLaw> laws() {
@@ -266,6 +263,7 @@ std::vector<NamedLaw> laws() {
   add("summits, 8 loads from a tenth of the highest on", curve_of({8, 0.1}));
   add("summits, 240 loads", curve_of({240, 1e-3}));
   add("summits, 60 loads with K_t", curve_of({60, 1e-3, true}));
+  all.back().own_tangential_stiffness = true;
   add("rough surface", rough_surface_curve());
   return all;
 }
@@ -274,36 +272,31 @@ std::vector<NamedLaw> laws() {
 
 TEST_CASE("On random motions through lift-off an element follows its law and Coulomb's") {
   Random random(3);
-  std::array<Errors, 2> by_sum, by_contact;  // with 64 and with 256 springs
   int parted = 0, motions = 0;
-  for (const auto& [name, law, highest] : laws()) {
+  for (const auto& [name, law, highest, own] : laws()) {
     CAPTURE(name);
-    const bool own = law->stiffness_ratio(highest) != ratio || std::string(name).ends_with("K_t");
     for (int i = 0; i < 8; ++i) {
       const RandomMotion motion = random_motion(random, *law, highest);
       CAPTURE(i, motion.friction, motion.lowest, motion.highest, motion.reach);
       ++motions, parted += motion.lowest < law->first_touch();
-      for (const std::size_t fine : {0, 1}) {
-        const int count = fine ? 256 : 64;
+      for (const int count : {64, 256}) {
+        const bool fine = count > 64;
         const Errors errors = errors_of(*law, motion, count, false);
-        by_sum[fine].join(errors);
+        // The first of 64 nodes above first touch have a distance of up to a fourth of l. Thinner
+        // springs help F in the fourth order and the tangential force at least in the first;
+        // measured: 9e-5 and 7e-6, 1.3 and 0.07 %, and 1.8 and 0.8 % in the loss, of which up to a
+        // percent comes from the steps, in which springs touch and slip at once.
         CHECK(errors.normal < (fine ? 2e-5 : 2e-4));
         CHECK(errors.force < (fine ? 0.003 : 0.03));
         CHECK(errors.loss < (fine ? 0.01 : 0.03));
         // With a K_t of its own, springs of the two classes slip at different stretches.
         if (motion.two_directions || own) continue;
         const Errors from_exact = errors_of(*law, motion, count, true);
-        by_contact[fine].join(from_exact);
         CHECK(from_exact.force < (fine ? 0.003 : 0.03));
         CHECK(from_exact.loss < (fine ? 0.01 : 0.03));
       }
     }
   }
-  WARN("of " << motions << " motions " << parted << " part; normal " << by_sum[0].normal << ' '
-             << by_sum[1].normal << ", sum: force " << by_sum[0].force << ' ' << by_sum[1].force
-             << ", loss " << by_sum[0].loss << ' ' << by_sum[1].loss << ", contact: force "
-             << by_contact[0].force << ' ' << by_contact[1].force << ", loss " << by_contact[0].loss
-             << ' ' << by_contact[1].loss);
   CHECK(parted > motions / 4);
   CHECK(parted < motions * 3 / 4);
 }
@@ -350,7 +343,6 @@ TEST_CASE("An element is open exactly where its law is, and has the law's force 
 TEST_CASE("Through lift-off an element loses what a damper and a joint of its law lose") {
   const TabulatedLaw rough(rough_surface_curve(), ratio), summits(curve_of({24, 1e-2}), ratio);
   const double friction = 0.3;
-  double worst_stick = 0, worst_slip = 0, worst_joint = 0;
   for (const TabulatedLaw* law : {&rough, &summits}) {
     const double highest = law->highest_indentation();
     const double decay = law->force(highest) / law->normal_stiffness(highest);
@@ -393,14 +385,12 @@ TEST_CASE("Through lift-off an element loses what a damper and a joint of its la
                                                                 motion.normal_amplitude, phase},
                                                     friction)
                                              .work_per_cycle);
-          worst_stick = std::max(worst_stick, stuck), worst_slip = std::max(worst_slip, slipped);
-          worst_joint = std::max(worst_joint, joint);
-          CHECK(stuck < 0.005);
-          CHECK(slipped < 0.005);
-          CHECK(joint < 0.005);
+          // The losses with slip are accurate to 1e-3; 256 springs and 4000 steps leave 7e-4.
+          CHECK(stuck < 5e-4);
+          CHECK(slipped < 3e-3);
+          CHECK(joint < 3e-3);
         }
   }
-  WARN(worst_stick << ' ' << worst_slip << ' ' << worst_joint);
 }
 
 TEST_CASE("A flat punch touches and parts as one spring") {
