@@ -94,7 +94,7 @@ class PlainSum {
  public:
   PlainSum(const ContactLaw& law, double bottom, double top, double fine, double friction)
       : law_(law), friction_(friction) {
-    constexpr int count = 800;
+    constexpr int count = 600;
     const double reach = std::asinh((top - bottom) / fine);
     double depth = bottom, sum = 0;
     for (int i = 1; i <= count; ++i) {
@@ -120,7 +120,8 @@ class PlainSum {
         const double part = (spring.depth - at_.indentation) / (to.indentation - at_.indentation);
         spring.x = std::lerp(at_.x, to.x, part), spring.y = std::lerp(at_.y, to.y, part);
       }
-      const double size = std::hypot(to.x - spring.x, to.y - spring.y);
+      const double s_x = to.x - spring.x, s_y = to.y - spring.y;
+      const double size = std::sqrt(s_x * s_x + s_y * s_y);
       const double limit = share * (to.indentation - spring.depth);
       const double kept = size > limit ? limit / size : 1;
       spring.x = to.x - kept * (to.x - spring.x), spring.y = to.y - kept * (to.y - spring.y);
@@ -180,9 +181,11 @@ RandomMotion random_motion(Random& random, const ContactLaw& law, double highest
 }
 
 struct Errors {
-  double normal = 0;  ///< of F, over F at the highest indentation
-  double force = 0,
-         loss = 0;  ///< of the tangential force over μ times this F; of the loss of a cycle
+  double normal = 0;           ///< of F, over F at the highest indentation
+  double force = 0;            ///< of the tangential force, over μ times this F
+  double loss = 0;             ///< of the loss of a cycle
+  double beyond_friction = 0;  ///< |T| − μF, N, beyond the round-off of sums over the springs
+  double apart = 0;            ///< largest force without contact, N
 };
 
 /// Errors of an element in the second cycle of a motion. exact: against TangentialContact, else
@@ -214,13 +217,11 @@ Errors errors_of(const ContactLaw& law, const RandomMotion& motion, int count, b
     for (const Position& at : motion.path) {
       const ElementForces now = element.move_to(at.indentation, at.x, at.y);
       const auto& tangential = now.tangential_force;
-      // The allowance is the round-off of sums over the springs.
-      REQUIRE(std::hypot(tangential[0], tangential[1]) <=
-              friction * now.normal_force * (1 + 1e-12) + 1e-14 * highest_force);
-      if (at.indentation <= touch) {
-        REQUIRE(now.normal_force == 0);
-        REQUIRE(tangential == std::array<double, 2>{});
-      }
+      const double size = std::hypot(tangential[0], tangential[1]);
+      errors.beyond_friction =
+          std::max(errors.beyond_friction,
+                   size - friction * now.normal_force * (1 + 1e-12) - 1e-14 * highest_force);
+      if (at.indentation <= touch) errors.apart = std::max({errors.apart, now.normal_force, size});
       errors.normal = std::max(
           errors.normal, std::abs(now.normal_force - law.force(at.indentation)) / highest_force);
       std::array<double, 2> other{};
@@ -275,13 +276,15 @@ TEST_CASE("On random motions through lift-off an element follows its law and Cou
   int parted = 0, motions = 0;
   for (const auto& [name, law, highest, own] : laws()) {
     CAPTURE(name);
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 7; ++i) {
       const RandomMotion motion = random_motion(random, *law, highest);
       CAPTURE(i, motion.friction, motion.lowest, motion.highest, motion.reach);
       ++motions, parted += motion.lowest < law->first_touch();
       for (const int count : {64, 256}) {
         const bool fine = count > 64;
         const Errors errors = errors_of(*law, motion, count, false);
+        CHECK(errors.beyond_friction <= 0);
+        CHECK(errors.apart == 0);
         // The first of 64 nodes above first touch have a distance of up to a fourth of l. Thinner
         // springs help F in the fourth order and the tangential force at least in the first;
         // measured: 9e-5 and 7e-6, 1.3 and 0.07 %, and 1.8 and 0.8 % in the loss, of which up to a
