@@ -173,7 +173,8 @@ double LawSprings::above_jump(std::size_t node) const {
 // two nodes, would not increase.
 void LawSprings::set_normal(const ContactLaw& law) {
   for (std::size_t i = 0; i < node_.size(); ++i) {
-    force_.push_back(law.force(node_[i]));
+    // A statistical law may have a force of round-off at first touch.
+    force_.push_back(node_[i] > law.first_touch() ? law.force(node_[i]) : 0);
     slope_.push_back(law.normal_stiffness(above_jump(i)));
   }
   for (std::size_t i = 1; i < node_.size(); ++i) {

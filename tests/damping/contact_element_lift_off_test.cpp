@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/contact_element.hpp>
@@ -394,6 +395,24 @@ TEST_CASE("Through lift-off an element loses what a damper and a joint of its la
           CHECK(joint < 3e-3);
         }
   }
+}
+
+TEST_CASE("An element of a statistical law of summits is open at its first touch") {
+  SummitEnsemble summits;
+  summits.summit_density = 1e12, summits.radius = 1e-6, summits.summit_rms = 1e-7;
+  const GreenwoodWilliamsonLaw law(summits, Material(1e11, 0.3), 1e-8);
+  const double highest = law.indentation_of(1e-3), touch = law.first_touch();
+  ContactElement element(
+      std::make_shared<const LawSprings>(law, highest - 1e-7, highest, LawSpringsOptions{0.3, 64}));
+  element.start(highest, 0, 0);
+  for (const double part : {0.999, 0.9, 0.5})
+    CHECK(element.forces(std::lerp(touch, highest, part), 0, 0).normal_force ==
+          Approx(law.force(std::lerp(touch, highest, part)))
+              .epsilon(1e-3)
+              .margin(1e-4 * law.force(highest)));
+  const ElementForces apart = element.move_to(touch, 1e-6, 0);
+  CHECK(apart.normal_force == 0);
+  CHECK(apart.tangential_force == std::array<double, 2>{});
 }
 
 TEST_CASE("A flat punch touches and parts as one spring") {
