@@ -101,11 +101,11 @@ Parameters
 ----------
 law : ContactLaw
 lowest, highest : float
-    Indentations, m, between which the springs are accurate. Below, springs are coarser; above, the force continues along its tangent.
+    Indentations, m, between which the springs are accurate; the lowest may lie below first touch. Below, springs are coarser, down to first touch; above, the force continues along its tangent.
 friction_coefficient : float
     μ >= 0; infinite: full stick.
 springs : int
-    8 … 4096; half of them lie between lowest and highest, half below.
+    8 … 4096; half of them lie between lowest and highest, half below. Where they reach first touch at equal distances, all do.
 )");
   law_levels
       .def(

@@ -21,17 +21,13 @@ constexpr double negligible_force = 1e-6;
 // the highest indentation.
 constexpr double shortest_level = 1e-3;
 
-// The indentation of the lowest node: the lowest indentation of the law, or one at which F is at
-// most negligible_force times the force at `highest`.
-double deepest(const ContactLaw& law, double lowest, double highest) {
-  const double bottom = law.lowest_indentation();
-  const double least = negligible_force * law.force(highest);
+// The indentation of the lowest node: first touch, or for a law that never opens one at which F is
+// at most `least`.
+double deepest(const ContactLaw& law, double lowest, double highest, double least) {
+  if (const double touch = law.first_touch(); std::isfinite(touch)) return touch;
   double depth = highest - lowest + law.force(highest) / law.normal_stiffness(highest);
   double low = lowest;
-  while (low > bottom && law.force(low) > least) {
-    low = std::max(bottom, lowest - depth);
-    depth *= 1.5;
-  }
+  for (; law.force(low) > least; depth *= 1.5) low = lowest - depth;
   return low;
 }
 
@@ -55,9 +51,11 @@ std::vector<double> depths(double first, double last, int count) {
   return result;
 }
 
-// Where K_t falls from node to node, the nodes share the mean of their K_t. This mean may differ
-// from the K_t of each node by at most this fraction.
-constexpr double max_scatter = 0.25;
+// Where the mean K_t of an interval falls from one interval to the next, these share the mean of
+// their K_t. This may change G = ∫K_t dζ by at most max_change of it, the noise of a good
+// measurement. Where G is smaller than `small` times that at the highest indentation, it may change
+// by as much as there: the noise of the lowest load of a curve is also that of its first touch.
+constexpr double max_change = 0.03, small = 0.01;
 
 // Values (low, high) and slopes of an increasing function at the two ends of an interval.
 struct Ends {
@@ -105,23 +103,26 @@ LawSprings::Normal through(const std::vector<double>& node, const std::vector<do
   return between({value[i], value[above], slope[i], slope[above]}, width, (at - node[i]) / width);
 }
 
-// The increasing sequence closest to `values` (least squares): neighbouring values that fall are
-// replaced by their mean.
-std::vector<double> rising(const std::vector<double>& values) {
+// The increasing sequence closest to `values` (least squares with weights): neighbouring values
+// that fall are replaced by their mean.
+std::vector<double> rising(const std::vector<double>& values, const std::vector<double>& weights) {
   struct Block {
-    double sum = 0;
-    std::size_t count = 0;
-    double mean() const { return sum / static_cast<double>(count); }
+    double mean, weight;
+    std::size_t count;
   };
   std::vector<Block> blocks;
-  for (const double value : values) {
-    Block last{value, 1};
-    for (; !blocks.empty() && blocks.back().mean() > last.mean(); blocks.pop_back())
-      last = {last.sum + blocks.back().sum, last.count + blocks.back().count};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Block last{values[i], weights[i], 1};
+    for (; !blocks.empty() && blocks.back().mean > last.mean; blocks.pop_back()) {
+      const Block& below = blocks.back();
+      const double weight = below.weight + last.weight;
+      last = {below.mean + last.weight / weight * (last.mean - below.mean), weight,
+              last.count + below.count};
+    }
     blocks.push_back(last);
   }
   std::vector<double> result;
-  for (const Block& block : blocks) result.insert(result.end(), block.count, block.mean());
+  for (const Block& block : blocks) result.insert(result.end(), block.count, block.mean);
   return result;
 }
 
@@ -138,16 +139,20 @@ LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
           "and highest must be finite and in this order");
   require(law.force(highest) > 0, "highest", highest, "m is an indentation without contact");
   detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
-  const int half = options.springs / 2;
+  // At smaller forces, springs need not be fine.
+  const double least = negligible_force * law.force(highest);
+  lowest = std::max(lowest, std::min(law.indentation_of(least), highest));
+  const double bottom = deepest(law, lowest, highest, least);
+  int fine = options.springs / 2;
+  // Where nodes at equal distances reach down to the bottom, none are coarser.
+  if (lowest - bottom <= (highest - lowest) / fine * (options.springs - fine))
+    lowest = bottom, fine = options.springs;
   std::vector<double> nodes;
-  for (int i = 0; i <= half; ++i) nodes.push_back(lowest + (highest - lowest) * i / half);
-  const double bottom = deepest(law, lowest, highest);
-  const double first = std::max((highest - lowest) / half, shortest_level * law.force(highest) /
+  for (int i = 0; i <= fine; ++i) nodes.push_back(lowest + (highest - lowest) * i / fine);
+  const double first = std::max((highest - lowest) / fine, shortest_level * law.force(highest) /
                                                                law.normal_stiffness(highest));
-  for (const double depth : depths(first, lowest - bottom, options.springs - half))
+  for (const double depth : depths(first, lowest - bottom, options.springs - fine))
     nodes.push_back(std::max(bottom, lowest - depth));
-  for (const double at : law.break_points())
-    if (std::isfinite(at) && at > bottom && at < highest && law.force(at) == 0) nodes.push_back(at);
   std::ranges::sort(nodes);
   // Nodes closer to each other than this are merged.
   const double apart = 1e-9 * (highest - bottom) + 1e-15 * std::abs(highest);
@@ -157,12 +162,20 @@ LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
   set_tangential(law);
 }
 
+// The indentation whose K and K_t a node takes. At first touch these may jump, as under a flat
+// punch, whose springs touch and separate as one; the node takes them from above the jump.
+double LawSprings::above_jump(std::size_t node) const {
+  const bool touches = node == 0 && !(force_.front() > 0);
+  return touches ? node_[0] + 1e-12 * (node_.back() - node_[0]) : node_[node];
+}
+
 // Sets F and K at the nodes. Lowers K where the data scatter so much that F, interpolated between
 // two nodes, would not increase.
 void LawSprings::set_normal(const ContactLaw& law) {
-  for (const double node : node_) {
-    force_.push_back(law.force(node));
-    slope_.push_back(law.normal_stiffness(node));
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    // A statistical law may have a force of round-off at first touch.
+    force_.push_back(node_[i] > law.first_touch() ? law.force(node_[i]) : 0);
+    slope_.push_back(law.normal_stiffness(above_jump(i)));
   }
   for (std::size_t i = 1; i < node_.size(); ++i) {
     const double mean = (force_[i] - force_[i - 1]) / (node_[i] - node_[i - 1]);
@@ -175,35 +188,49 @@ void LawSprings::set_normal(const ContactLaw& law) {
     slope_.front() = (force_[1] - force_[0]) / (node_[1] - node_[0]);
 }
 
-// Sets K_t of the springs, and G = ∫K_t dζ at the nodes.
+// Sets K_t of the springs, and G = ∫K_t dζ at the nodes. The mean K_t between two nodes is that of
+// the law, so G is right at each node however much K_t scatters between the loads of a curve.
 void LawSprings::set_tangential(const ContactLaw& law) {
   std::vector<double> stiffness;
   bool proportional = true;  // K_t/K is the same at all nodes, so ∫K_t is a multiple of F
   for (std::size_t i = 0; i < node_.size(); ++i) {
-    stiffness.push_back(law.tangential_stiffness(node_[i]));
+    stiffness.push_back(law.tangential_stiffness(above_jump(i)));
     proportional = proportional && law.stiffness_ratio(node_[i]) == law.modulus_ratio();
   }
-  sum_ = rising(stiffness);
-  for (std::size_t i = 0; i < node_.size(); ++i)
-    require(std::abs(sum_[i] - stiffness[i]) <= max_scatter * sum_[i], "law", node_[i],
-            "m has a tangential stiffness that differs by more than a quarter from the mean of its "
-            "neighbours, which fall; smooth the curve or leave out this sample");
-  const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];
-  stiffness_ = {sum_[0]}, depth_ = {floor}, held_ = {sum_[0] * (node_[0] - floor)};
+  std::vector<double> means, widths;
+  double whole = 0;
   for (std::size_t i = 1; i < node_.size(); ++i) {
-    const double width = node_[i] - node_[i - 1], rise = sum_[i] - sum_[i - 1];
+    widths.push_back(node_[i] - node_[i - 1]);
     const double gain =
         proportional ? law.modulus_ratio() * (force_[i] - force_[i - 1])
                      : detail::integrate([&](double at) { return law.tangential_stiffness(at); },
                                          detail::sweep_breaks(law, node_[i - 1], node_[i]), 1e-10)
                            .value;
+    means.push_back(gain / widths.back());
+    whole += gain;
+  }
+  const std::vector<double> pooled = rising(means, widths);
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    const double below = i > 0 ? pooled[i - 1] : 0,
+                 above = i < pooled.size() ? pooled[i] : std::max(below, stiffness[i]);
+    sum_.push_back(std::clamp(stiffness[i], below, above));
+  }
+  const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];
+  stiffness_ = {sum_[0]}, depth_ = {floor}, held_ = {sum_[0] * (node_[0] - floor)};
+  double exact = held_[0];
+  for (std::size_t i = 1; i < node_.size(); ++i) {
+    const double width = widths[i - 1], rise = sum_[i] - sum_[i - 1];
     // A spring represents all springs between two nodes, so its depth must lie between these nodes.
     constexpr double edge = 1e-3;
-    const double mean = gain / width - sum_[i - 1];
-    const double within = std::clamp(mean, edge * rise, (1 - edge) * rise);
+    const double within = std::clamp(pooled[i - 1] - sum_[i - 1], edge * rise, (1 - edge) * rise);
     stiffness_.push_back(rise);
     depth_.push_back(rise > 0 ? node_[i] - width * (within / rise) : node_[i]);
     held_.push_back(held_.back() + width * (sum_[i - 1] + within));
+    exact += width * means[i - 1];
+    require(std::abs(held_[i] - exact) <= max_change * std::max(exact, small * whole), "law",
+            node_[i],
+            "m lies where the tangential stiffness falls by more than scatter, and springs cannot "
+            "follow; smooth the curve, or leave out the loads near it");
   }
 }
 

@@ -30,7 +30,7 @@ void set_range(DeckContact& contact) {
   const ContactLaw& law = *contact.law;
   const bool table = std::isfinite(law.highest_indentation());
   if (table) {
-    contact.lowest = law.lowest_indentation();
+    contact.lowest = law.first_touch();
     contact.highest = law.highest_indentation();
   } else if (!std::isnan(contact.indentation)) {
     detail::require_possible(law, contact.indentation, 0);
@@ -166,9 +166,12 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
     for (const std::size_t i : which) {
       const DeckContact& contact = problem.contacts[i];
       const double weight = share / contact.nominal_area;
-      // Because of rounding, the ends of the range may lie outside the table of the contact.
-      const double indentation =
-          std::clamp(contact.clearance_origin - clearance[row], contact.lowest, contact.highest);
+      // Because of rounding, the ends of the range may lie outside the range of the contact, and a
+      // row at first touch may have a force.
+      const bool at_lowest = clearance[row] >= contact.clearance_origin - contact.lowest;
+      const double indentation = at_lowest ? contact.lowest
+                                           : std::clamp(contact.clearance_origin - clearance[row],
+                                                        contact.lowest, contact.highest);
       law.pressure[row] += weight * contact.law->force(indentation);
       law.normal_stiffness[row] += weight * contact.law->normal_stiffness(indentation);
       if (tangential)
@@ -188,6 +191,8 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
   return law;
 }
 
+/// Largest error of straight lines between the rows of the mean law, over the pressure. Below the
+/// lowest load of curves, where the pressure falls to 0, it is over the pressure at this load.
 double interpolation_error(const DeckProblem& problem, const Deck& deck) {
   const DeckLaw& mean = deck.laws.front();
   std::vector<double> middle;
@@ -196,10 +201,14 @@ double interpolation_error(const DeckProblem& problem, const Deck& deck) {
   std::vector<std::size_t> all(problem.contacts.size());
   std::iota(all.begin(), all.end(), 0);
   const DeckLaw between = law_of_contacts(problem, middle, all);
+  double least = 0;
+  for (const DeckContact& contact : problem.contacts)
+    if (const double first = contact.law->lowest_indentation(); std::isfinite(first))
+      least += contact.law->force(first) / contact.nominal_area / double(all.size());
   double worst = 0;
   for (std::size_t i = 0; i < middle.size(); ++i) {
-    const double line = (mean.pressure[i] + mean.pressure[i + 1]) / 2;
-    worst = std::max(worst, std::abs(line / between.pressure[i] - 1));
+    const double line = (mean.pressure[i] + mean.pressure[i + 1]) / 2, law = between.pressure[i];
+    worst = std::max(worst, std::abs(line - law) / std::max(law, least));
   }
   return worst;
 }
@@ -341,9 +350,12 @@ void add_table(Deck& deck, int max_rows, DeckSolution& answer) {
   deck.header.push_back(fmt::format("Clearance: counted from {}.", first.clearance_from));
   deck.header.push_back(fmt::format(
       "Window: clearance {:.6g} to {:.6g}, mean pressure {:.6g} to {:.6g}; straight lines between "
-      "the {} rows are off by {:.2g} % at most.",
+      "the {} rows are off by {:.2g} % at most{}.",
       range.far * metre, range.close * metre, deck.laws.front().pressure.front() * pascal,
-      deck.laws.front().pressure.back() * pascal, rows, 100 * answer.interpolation_error));
+      deck.laws.front().pressure.back() * pascal, rows, 100 * answer.interpolation_error,
+      deck.laws.front().pressure.front() > 0
+          ? ""
+          : ", of the pressure at the lowest load of the curve where the pressure is smaller"));
   if (problem.contacts.size() > 1)
     deck.header.push_back(
         fmt::format("Low and high are whole surfaces, ranked by their force at clearance {:.6g}.",

@@ -123,7 +123,7 @@ struct DeckRow {
 /// spacing beyond the last row, with the slope of the last two.
 std::vector<DeckRow> rows_of(const Deck& deck, const DeckLaw& law, double zero, double steps = 0) {
   std::vector<double> displacement{zero - first_clearance(deck)}, pressure{0};
-  for (std::size_t i = 0; i < deck.clearance.size(); ++i) {
+  for (std::size_t i = law.pressure.front() > 0 ? 0 : 1; i < deck.clearance.size(); ++i) {
     displacement.push_back(zero - deck.clearance[i]);
     pressure.push_back(law.pressure[i]);
   }
@@ -306,7 +306,8 @@ std::string comment(std::string_view sentence, const CommentStyle& style) {
 double first_clearance(const Deck& deck) {
   double tail = 0;
   for (const DeckLaw& law : deck.laws)
-    tail = std::max(tail, law.pressure.front() / law.normal_stiffness.front());
+    if (law.pressure.front() > 0)
+      tail = std::max(tail, law.pressure.front() / law.normal_stiffness.front());
   return deck.clearance.front() + tail;
 }
 

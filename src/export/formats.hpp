@@ -54,7 +54,7 @@ struct CommentStyle {
 std::string comment(std::string_view sentence, const CommentStyle& style);
 
 /// The clearance at which piecewise linear tables begin with pressure 0, the same for all laws of a
-/// deck. It is at least the clearance at which the tangent at the farthest row reaches 0, so that
+/// deck: that of first touch if the table begins there. It is at least the clearance at which the tangent at the farthest row reaches 0, so that
 /// the tables stay convex.
 double first_clearance(const Deck& deck);
 
@@ -74,9 +74,8 @@ const DeckWriter& writer_of(DeckFormat format);
 struct SliderSet {
   std::vector<Slider> sliders;
   double stiffness = 0, force = 0;  ///< sums over all sliders, N/m and N
-  /// Largest tangential force, over μF, at which all slipping springs lie inside the range of the
-  /// law.
-  double resolved = 0;
+  double resolved =
+      0;  ///< tangential force, over μF, beyond which one slider holds all that sticks
   double loss_error = 0;  ///< relative error of the loss per cycle at the smallest tangential force
 };
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,

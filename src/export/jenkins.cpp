@@ -16,15 +16,13 @@ namespace salebra::detail {
 namespace {
 
 /// First loading of the mean of several contacts: the derivative T'(x) of the tangential force T
-/// with respect to the displacement x, and the displacement up to which it is known.
+/// with respect to the displacement x, and the displacement at which the last spring slips.
 class Backbone {
  public:
   Backbone(const std::vector<DeckContact>& contacts, double friction_coefficient)
       : contacts_(contacts), friction_(friction_coefficient) {
-    for (const DeckContact& contact : contacts)
-      end_ = std::min(
-          end_, (contact.indentation - contact.law->lowest_indentation()) / depth_of(contact));
     for (const DeckContact& contact : contacts) {
+      end_ = std::max(end_, (contact.indentation - contact.law->first_touch()) / depth_of(contact));
       force_ += friction_ * contact.law->force(contact.indentation) / double(contacts.size());
       for (const double depth : contact.law->break_points())
         if (depth < contact.indentation)
@@ -38,8 +36,7 @@ class Backbone {
     double sum = 0;
     for (const DeckContact& contact : contacts_) {
       const ContactLaw& law = *contact.law;
-      const double spring_depth = contact.indentation - depth_of(contact) * x;
-      sum += law.tangential_stiffness(std::max(spring_depth, law.lowest_indentation()));
+      sum += law.tangential_stiffness(contact.indentation - depth_of(contact) * x);
     }
     return sum / double(contacts_.size());
   }
@@ -69,7 +66,7 @@ class Backbone {
   }
 
   const std::vector<DeckContact>& contacts_;
-  double friction_, force_ = 0, end_ = std::numeric_limits<double>::infinity();
+  double friction_, force_ = 0, end_ = 0;
   std::vector<double> bends_;
 };
 
@@ -116,20 +113,17 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
                           int count, double min_force) {
   const Backbone backbone(contacts, friction_coefficient);
   SliderSet set{.sliders = {}, .stiffness = backbone.stiffness(0), .force = backbone.slip_force()};
-  // Largest fraction of μF that is resolved; the last slider represents all springs that slip
-  // later.
+  // Fraction of the force of all springs that is resolved; the last slider represents all springs
+  // that slip later.
   constexpr double resolved = 0.999;
-  const double known = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
-  set.resolved = std::min(resolved, known / set.force);
-  require(
-      min_force < set.resolved, "min_force", min_force,
-      fmt::format("must be below {:.4g}, {}", set.resolved,
-                  set.resolved < resolved ? "up to which slip stays within the law; give a smaller "
-                                            "value, or a curve that begins at lower forces"
-                                          : "beyond which one slider holds all that sticks"));
+  // If K_t/K varies along the law, the springs may carry less than μF when all of them slip.
+  const double carried = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
+  set.resolved = resolved * std::min(1.0, carried / set.force);
+  require(min_force < set.resolved, "min_force", min_force,
+          fmt::format("must be below {:.4g}, beyond which one slider holds all that sticks",
+                      set.resolved));
   const double smallest = backbone.displacement(min_force * set.force);
-  const double last =
-      set.resolved < resolved ? backbone.end() : backbone.displacement(resolved * set.force);
+  const double last = backbone.displacement(set.resolved * set.force);
   const std::vector<double> x = edges(smallest, last, count);
   double force = 0, stiffness = set.stiffness;  // T and T' at the current displacement
   double rest_force = set.force, rest_stiffness = set.stiffness;
@@ -145,9 +139,6 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     rest_force -= slider.slider_force;
     set.sliders.push_back(slider);
   }
-  require(rest_stiffness > 0 && rest_force > 0, "curve", "",
-          "has springs below its range that slip before those within; give a curve that begins at "
-          "lower forces");
   set.sliders.push_back({rest_stiffness, rest_force});
   set.loss_error = loss(set.sliders, min_force * set.force) / loss(backbone, smallest) - 1;
   return set;

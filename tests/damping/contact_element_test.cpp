@@ -470,6 +470,6 @@ TEST_CASE("Levels say what they cannot do") {
   for (const double at : {1e-8, 2e-8, 3e-8, 4e-8, 5e-8, 6e-8})
     falling.samples.push_back({.indentation = at, .force = std::sqrt(at)});
   CHECK_THROWS_WITH(LawSprings(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
-                    Catch::Contains("from the mean of its neighbours"));
+                    Catch::Contains("falls by more than scatter"));
   CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("intervals"));
 }

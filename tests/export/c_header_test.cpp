@@ -43,7 +43,10 @@ int main(void) {
 }
 )";
 
-void compare(const ContactLaw& law, double lowest, double highest, double friction) {
+/// Compares both on a random path from `farthest` to `highest`. Returns the number of its steps at
+/// which the surfaces are apart.
+int compare(const ContactLaw& law, double lowest, double highest, double friction,
+            double farthest) {
   const auto springs = std::make_shared<const LawSprings>(
       law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .springs = 40});
   // Millimetres and kilonewtons, so the comparison with SI checks the units too.
@@ -58,7 +61,7 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   std::ofstream file(scratch / "path.txt");
   file.precision(17);
   for (int i = 0; i < 2000; ++i) {
-    path.push_back({std::lerp(lowest - 2e-8, highest, uniform()), 4e-8 * (2 * uniform() - 1),
+    path.push_back({std::lerp(farthest, highest, uniform()), 4e-8 * (2 * uniform() - 1),
                     4e-8 * (2 * uniform() - 1)});
     for (const double one : path.back()) file << one * 1e3 << ' ';
     file << '\n';
@@ -75,13 +78,22 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   element.start(0, 0, 0);
   std::ifstream forces(scratch / "forces.txt");
   double worst_force = 0, worst_stiffness = 0;
+  int apart = 0;
   for (const auto& [indentation, x, y] : path) {
     const ElementForces here = element.move_to(indentation, x, y);
-    for (const double expected :
-         {here.normal_force, here.tangential_force[0], here.tangential_force[1]}) {
-      double found = std::numeric_limits<double>::quiet_NaN();
-      forces >> found;
-      worst_force = std::max(worst_force, std::abs(found * 1e3 - expected) / force);
+    std::array<double, 3> found{};
+    for (double& one : found) forces >> one;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double expected = i == 0 ? here.normal_force : here.tangential_force[i - 1];
+      worst_force = std::max(worst_force, std::abs(found[i] * 1e3 - expected) / force);
+    }
+    REQUIRE(found[0] >= 0);
+    if (std::isfinite(friction))
+      REQUIRE(std::hypot(found[1], found[2]) <= friction * found[0] * (1 + 1e-12) + 1e-17 * force);
+    if (indentation <= law.first_touch()) {
+      ++apart;
+      REQUIRE(found == std::array<double, 3>{});
+      REQUIRE(here.normal_force == 0);
     }
     for (const auto& row : here.stiffness)
       for (const double expected : row) {
@@ -93,6 +105,7 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   CHECK(forces.good());
   CHECK(worst_force < 1e-13);
   CHECK(worst_stiffness < 1e-11);
+  return apart;
 }
 
 }  // namespace
@@ -100,8 +113,8 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
 TEST_CASE("A C header takes the steps of a contact element") {
   constexpr double ratio = 0.8;
   for (const double friction : {0.3, std::numeric_limits<double>::infinity()}) {
-    compare(ExponentialLaw(10, 1e-7, ratio), -5e-8, 5e-8, friction);
-    compare(PowerLaw(1e9, 1.5, ratio), 1e-8, 9e-8, friction);
+    compare(ExponentialLaw(10, 1e-7, ratio), -5e-8, 5e-8, friction, -7e-8);
+    CHECK(compare(PowerLaw(1e9, 1.5, ratio), 1e-8, 9e-8, friction, -1e-8) > 100);
     // A table with its own K_t, in which K and K_t scatter.
     ForceCurve curve{.model = "measured", .nominal_area = 1, .samples = {}};
     for (int i = 0; i < 60; ++i) {
@@ -111,7 +124,11 @@ TEST_CASE("A C header takes the steps of a contact element") {
                                .normal_stiffness = force / 1e-7 * (1 - scatter),
                                .tangential_stiffness = ratio * force / 1e-7 * (1 + scatter)});
     }
-    compare(TabulatedLaw(curve, ratio), -5e-8, 5e-8, friction);
+    const TabulatedLaw law(curve, ratio);
+    compare(law, -5e-8, 5e-8, friction, -7e-8);
+    // Apart in a tenth of the steps, and between first touch and the lowest load in others.
+    CHECK(compare(law, -5e-8, 5e-8, friction, law.first_touch() - 1e-7) > 100);
+    CHECK(compare(law, law.first_touch(), 5e-8, friction, law.first_touch() - 1e-7) > 100);
   }
 }
 

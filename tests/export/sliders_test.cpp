@@ -100,6 +100,54 @@ TEST_CASE("Sliders of a curve lose what joint_loss() says, and know where levels
   }
 }
 
+TEST_CASE("Sliders of a curve slip down to first touch", "[export]") {
+  // A curve that begins at half the force: K_t = (G*/E*)K, and T(x) = μ[F(δ) − F(δ − (G*/E*)x/μ)].
+  ForceCurve curve = cubic_curve();
+  std::erase_if(curve.samples, [](const ForceSample& one) { return one.force < 0.5 * force0 / 8; });
+  const DeckContact contact = deck_contact(CurveContact{
+      curve, modulus_ratio, {ControlQuantity::pressure, {force0 / area0 / 8}}, "curve"});
+  const ContactLaw& law = *contact.law;
+  const double high = law.indentation_of(force0 / 8), force = friction * law.force(high);
+  const auto carried = [&](double x) {
+    return friction * (law.force(high) - law.force(high - modulus_ratio * x / friction));
+  };
+  const auto sliders = sliders_of(contact, 400);
+  for (const double q : {0.05, 0.3, 0.6, 0.9, 0.99}) {
+    CAPTURE(q);
+    const double x =
+        friction / modulus_ratio * (high - law.indentation_of((1 - q) * force / friction));
+    CHECK(carried(x) == Approx(q * force));
+    // Masing: the loss is eight times the area between first loading and its chord.
+    double area = 0;
+    constexpr int parts = 20000;
+    for (int i = 0; i < parts; ++i)
+      area += (carried((i + 0.5) * x / parts) - q * force / 2) * x / parts;
+    CHECK(loss_of(sliders, q * force) == Approx(8 * area).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("Sliders of a curve whose K_t/K varies carry its friction force", "[export]") {
+  for (const double rise : {-0.3, 0.3}) {
+    ForceCurve curve = cubic_curve();
+    for (ForceSample& one : curve.samples)
+      one.tangential_stiffness = one.normal_stiffness * (0.7 + rise * one.mean_gap / 1e-6);
+    const DeckContact contact = deck_contact(CurveContact{
+        curve, DeckContact::unknown, {ControlQuantity::pressure, {force0 / area0 / 8}}, "curve"});
+    double stiffness = 0, force = 0;
+    const auto sliders = sliders_of(contact, 400);
+    for (const auto& slider : sliders) {
+      CHECK(slider[0] > 0);
+      CHECK(slider[1] > 0);
+      stiffness += slider[0], force += slider[1];
+    }
+    CHECK(stiffness == Approx(contact.law->tangential_stiffness(contact.indentation)));
+    CHECK(force == Approx(friction * force0 / 8));
+    const JointLoss joint =
+        joint_loss(*contact.law, at_force(force0 / 8), TangentialForce{0.4 * force}, friction);
+    CHECK(loss_of(sliders, 0.4 * force) == Approx(joint.work_per_cycle).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by default",
           "[export]") {
   DeckProblem problem;

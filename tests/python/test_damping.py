@@ -399,6 +399,23 @@ def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
         salebra.LawSprings(law, 0.0, 1e-8, springs=1)
 
 
+def test_a_contact_element_parts_where_its_curve_does() -> None:
+    friction = 0.3
+    samples = np.linspace(0, 4e-7, 60)
+    curve = salebra.ForceCurve(1e-6, indentation=samples, force=np.exp(samples / 1e-7), normal_stiffness=np.exp(samples / 1e-7) / 1e-7)
+    law = salebra.TabulatedLaw(curve, 0.8)
+    lowest, highest, touch = law.lowest_indentation, law.highest_indentation, law.first_touch
+    assert touch == pytest.approx(lowest - 1.5e-7)
+    element = salebra.ContactElement(salebra.LawSprings(law, touch, highest, friction_coefficient=friction))
+    element.start(highest)
+    for indentation in np.linspace(touch - 1e-7, lowest, 100):
+        forces = element.move_to(indentation, 1e-6 * math.sin(indentation / 1e-8))
+        assert forces.normal_force == pytest.approx(law.force(indentation), abs=1e-4 * law.force(highest))
+        assert abs(forces.tangential_force[0]) <= friction * forces.normal_force * (1 + 1e-12)
+        if indentation <= touch:
+            assert law.force(indentation) == forces.normal_force == forces.tangential_force[0] == 0
+
+
 def test_a_sphere_by_force_cell_by_cell_is_mindlins() -> None:
     grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
     material, radius, friction, indentation = salebra.Material(1e9, poisson=0.0), 8e-3, 0.4, 1.5e-5

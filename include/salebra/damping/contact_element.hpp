@@ -14,7 +14,8 @@ namespace salebra {
 struct LawSpringsOptions {
   /// μ >= 0; infinite: full stick, the case of the paper.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  int springs = 64;  ///< 8 to 4096; half of them lie in the range of the motion, half below it
+  int springs = 64;  ///< 8 to 4096; half of them lie in the range of the motion, half below it; all
+                     ///< at equal distances where these reach down to first touch
 };
 
 /// A contact law as a stack of springs at increasing depth, each with a friction limit, made for
@@ -26,20 +27,21 @@ struct LawSpringsOptions {
 /// law at both nodes: by a cubic where the cubic is convex, and otherwise by a power of the
 /// distance from one of the two nodes. The tangential stiffness of each spring acts at one depth c,
 /// the middle of the spring. Its stretch is limited to μ(F/G)(δ − c), with G(δ) the integral of K_t
-/// over all depths up to δ, so that all springs together carry μF, whatever K_t/K is. The contact
-/// below the lowest node is a single spring; F is continued there along its tangent at the lowest
-/// node, down to F = 0, where the surfaces separate. Springs cannot have a negative stiffness:
-/// neighbouring nodes between which K_t falls because of scatter all get the mean of their K_t.
+/// over all depths up to δ, so that all springs together carry μF, whatever K_t/K is. The lowest
+/// node is first touch, where the surfaces separate and F is 0. A law without first touch ends at a
+/// node where F is at most 1e-6 of F(highest); the contact below is a single spring, and F is
+/// continued along its tangent to F = 0. Springs cannot have a negative stiffness: neighbouring
+/// intervals between nodes whose mean K_t falls because of scatter all get the mean of their K_t.
 class LawSprings {
  public:
-  /// lowest, highest   range of δ, m, in which the contact moves at full accuracy. Below `lowest`,
-  ///                   springs reach down to the depth where F is 1e-6 of F(highest), or to the end
-  ///                   of the law. A step may leave the range: below `lowest` springs are coarser,
-  ///                   above `highest` the force continues along its tangent
-  /// throws            InvalidInput for options out of range, for indentations that the law does
-  ///                   not cover, and for a K_t that falls with δ by more than scatter, i.e. if the
-  ///                   mean K_t of neighbouring nodes differs from the K_t of one of them by more
-  ///                   than a quarter
+  /// lowest, highest   range of δ, m, in which the contact moves at full accuracy. `lowest` may lie
+  ///                   below first touch; where F is below 1e-6 of F(highest), springs are coarser.
+  ///                   A step may leave the range: below `lowest` springs are coarser, and above
+  ///                   `highest` the force continues along its tangent
+  /// throws            InvalidInput for options out of range, for a `highest` that the law does not
+  ///                   cover or where F is 0, and for a K_t that falls with δ by more than scatter,
+  ///                   i.e. if its rising mean changes ∫K_t dζ at a node by more than 3 %, or 3e-4
+  ///                   of that at `highest`
   LawSprings(const ContactLaw& law, double lowest, double highest,
              const LawSpringsOptions& options = {});
 
@@ -62,6 +64,7 @@ class LawSprings {
 
  private:
   friend class ContactElement;
+  double above_jump(std::size_t node) const;
   void set_normal(const ContactLaw& law);
   void set_tangential(const ContactLaw& law);
   Normal held(double indentation) const;  // G, K_t, K_t'

@@ -96,7 +96,7 @@ struct DeckSolution {
   std::string text;  ///< the deck
   int surfaces = 0;  ///< number of surfaces used
   /// Largest relative error of the pressure when it is interpolated linearly between the rows of
-  /// the mean law.
+  /// the mean law; below the lowest load of a curve the error is relative to the pressure there.
   double interpolation_error = DeckContact::unknown;
   double tangential_stiffness = DeckContact::unknown;  ///< total K_t of the Jenkins sliders, N/m
   double slip_force = DeckContact::unknown;            ///< total μF, N

@@ -116,6 +116,7 @@ struct TabulatedLaw::Splines {
   // empty within the samples.
   std::optional<double> share_below(double indentation) const {
     if (!(indentation < log_force.front())) return {};
+    if (indentation <= first_touch()) return 0;  // where round-off would leave some
     return std::max(0.0, 1 - (log_force.front() - indentation) * stiffness / (1.5 * force));
   }
 
