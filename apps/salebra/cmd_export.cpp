@@ -28,6 +28,7 @@ struct ExportArguments {
   std::string result, format, units = "m,kg,s", of = "mean", name = "contact";
   LawOptions law;
   MaterialOptions material;
+  Conduction conduction;
   std::optional<double> friction_coefficient, nominal_area, min_force;
   std::vector<double> window;
   int rows = 200, sliders = 200;
@@ -78,7 +79,11 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
                                           DeckProblem& problem, Session& session) {
   require_finished(file);
   StudyParameters parameters = parameters_of(file);
-  if (arguments.material.given()) parameters.modulus_ratio = arguments.material.modulus_ratio();
+  const MaterialOptions& material = arguments.material;
+  // For the conductance of a curve that has K_t, or needs none, E* alone is enough.
+  const bool modulus_only = !arguments.conduction.conductivity.empty() && material.young.empty() &&
+                            material.poisson.empty() && !material.tangential_modulus;
+  if (material.given() && !modulus_only) parameters.modulus_ratio = material.modulus_ratio();
   problem.comment = parameters.comment;
   const std::vector<OperatingPoints> at = arguments.law.at.given();
   if (at.size() > 1)
@@ -120,6 +125,13 @@ void run(const ExportArguments& arguments, Session& session) {
   if (arguments.friction_coefficient)
     problem.friction_coefficient = *arguments.friction_coefficient;
   if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
+  if (!arguments.conduction.conductivity.empty()) {
+    require_options(arguments.material.missing(false), "--conductivity");
+    problem.conductivity = arguments.conduction.conductivity;
+    problem.contact_modulus = arguments.material.material().contact_modulus;
+  }
+  require_that(problem.format != DeckFormat::fmu || session.has_output(), "--output",
+               "not given, but an FMU is a file; name it, as in -o contact.fmu");
   if (arguments.min_force) problem.min_force = *arguments.min_force;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
@@ -146,6 +158,10 @@ void run(const ExportArguments& arguments, Session& session) {
         "the loss at {:g} of the force at which all slips is off by {:.3g} %; give more --sliders "
         "or a larger --min-force",
         problem.min_force, 100 * answer.loss_error));
+  if (problem.format == DeckFormat::fmu && answer.platform.empty())
+    session.warn(
+        "no C compiler `cc` compiled the unit, so that it contains its sources only; the "
+        "simulation program must compile them");
   const Json object = answer_json(answer);
   if (!session.has_output()) {
     Json whole = object;
@@ -187,20 +203,29 @@ void add_export_command(Program& program) {
       .add_option("--rows", arguments->rows,
                   "rows of a table; default 200, at most 198 for calculix and 19 for ansys")
       ->range(4, 100000);
-  const std::string before = command.under("Sliders (--to jenkins) and springs (--to c-header)");
+  const std::string before =
+      command.under("Sliders (--to jenkins) and springs (--to c-header, fmu)");
   command
       .add_option("--sliders", arguments->sliders,
-                  "number of sliders, or of springs in a C header; default 200")
+                  "number of sliders, or of springs in a C header or FMU; default 200")
       ->range(2, 100000);
   command.add_option("--name", arguments->name,
-                     "prefix of the names in a C header; default contact");
+                     "prefix of the names in a C header, name of an FMU; default contact");
   add_quantity(command, "--min-force", arguments->min_force, Dimension::dimensionless,
                "T/(mu F) from which the loss of the sliders is right to 1 %; default 0.01");
-  add_choice<DeckCase>(command, "--of", arguments->of,
-                       "which of several surfaces to take; default mean. Tables hold all three");
+  add_choice<DeckCase>(
+      command, "--of", arguments->of,
+      "which of several surfaces to take; default mean. Tables hold all three, except elmer");
   command.under(before);
   arguments->law.add_to(command);
   arguments->material.add_to(command);
+  const std::string last = command.under("Conductance");
+  add_values(
+      command, "--conductivity", arguments->conduction.conductivity,
+      Dimension::thermal_conductivity,
+      "thermal conductivity K1[,K2], one value for both bodies: adds the thermal conductance "
+      "over the pressure; needs the contact modulus");
+  command.under(last);
 }
 
 }  // namespace salebra::cli

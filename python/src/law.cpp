@@ -67,7 +67,11 @@ highest_indentation they raise InvalidInput; below first_touch they return 0.
              std::optional<double> indentation, double nominal_area, double friction_coefficient,
              const std::string& units, std::optional<std::pair<double, double>> pressure_window,
              int rows, int sliders, double min_force, const std::string& name,
-             const std::string& source) {
+             const std::string& source, const std::vector<double>& conductivity,
+             double contact_modulus) {
+            require_that(format.value("format") != DeckFormat::fmu, "format",
+                         "fmu is an archive, which the program writes: salebra export --to fmu -o "
+                         "contact.fmu");
             // A pointer that does not own the law, which outlives this call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
             const DeckProblem problem{.contacts = {deck_contact(alias, indentation)},
@@ -80,6 +84,8 @@ highest_indentation they raise InvalidInput; below first_touch they return 0.
                                       .sliders = sliders,
                                       .min_force = min_force,
                                       .name = name,
+                                      .conductivity = conductivity,
+                                      .contact_modulus = contact_modulus,
                                       .source = source};
             return unlocked([&] { return solve(problem).text; });
           },
@@ -88,11 +94,13 @@ highest_indentation they raise InvalidInput; below first_touch they return 0.
           nb::arg("friction_coefficient") = DeckContact::unknown, nb::arg("units") = "m,kg,s",
           nb::arg("pressure_window") = nb::none(), nb::arg("rows") = 200, nb::arg("sliders") = 200,
           nb::arg("min_force") = 0.01, nb::arg("name") = "contact", nb::arg("source") = "",
+          nb::arg("conductivity") = std::vector<double>{},
+          nb::arg("contact_modulus") = DeckContact::unknown,
           R"(Returns the law as input of another program: the text of a deck.
 
 Parameters
 ----------
-format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "jenkins", "c_header"}
+format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "moose", "elmer", "jenkins", "c_header"}
     "jenkins": sliders in parallel, Iwan's model; "c_header": `ContactElement` without dependencies.
 indentation : float, optional
     Indentation at which friction and sliders are computed, m; 0 by default for an exponential law. A law without a table is exported
@@ -113,6 +121,10 @@ name : str
     Prefix of every name in a C header.
 source : str
     Source of the law, for the header.
+conductivity : sequence of float
+    Thermal conductivity of the bodies, W/(m K), one value for both or one for each: adds the conductance over the pressure.
+contact_modulus : float
+    E*, Pa, which the conductance needs.
 
 Returns
 -------

@@ -165,12 +165,6 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
 }
 )c";
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
 std::string table(std::string_view name, const std::vector<double>& values, double unit) {
   std::string text = fmt::format("static const double @NAME@_{}[@NAME@_springs] = {{", name);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -183,6 +177,12 @@ std::string table(std::string_view name, const std::vector<double>& values, doub
 }
 
 }  // namespace
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos;
+       at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
 
 std::string c_header(const LawSprings& springs, const CHeaderOptions& options) {
   const std::string& name = options.name;

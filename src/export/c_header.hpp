@@ -3,6 +3,7 @@
 
 #include <salebra/damping/contact_element.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace salebra {
@@ -18,5 +19,8 @@ struct CHeaderOptions {
 /// and <name>_state, <name>_start(), <name>_step() with the forces and derivatives of
 /// ContactElement, up to round-off. Throws InvalidInput for a name that is not valid in C.
 std::string c_header(const LawSprings& springs, const CHeaderOptions& options = {});
+
+/// Replaces every `from` in the text.
+void replace_all(std::string& text, std::string_view from, std::string_view to);
 
 }  // namespace salebra

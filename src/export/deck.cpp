@@ -9,12 +9,14 @@
 #include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/export/deck.hpp>
 #include <type_traits>
 #include <utility>
 
 #include "analysis/part.hpp"
 #include "damping/max_motion.hpp"
+#include "fmu.hpp"
 #include "formats.hpp"
 
 namespace salebra {
@@ -177,15 +179,23 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
       if (tangential)
         law.tangential_stiffness[row] += weight * contact.law->tangential_stiffness(indentation);
     }
+  for (const double stiffness : law.normal_stiffness)
+    if (!problem.conductivity.empty())
+      law.conductance.push_back(
+          conductances(stiffness, problem.contact_modulus,
+                       {.conductivity = problem.conductivity, .resistivity = {}})
+              .thermal_conductance);
   if (!std::isnan(problem.friction_coefficient)) {
-    double slope = 0, pressure = 0;
+    double slope = 0, normal_slope = 0, pressure = 0;
     for (const std::size_t i : which) {
       const DeckContact& contact = problem.contacts[i];
       const double weight = share / contact.nominal_area;
       slope += weight * contact.law->tangential_stiffness(contact.indentation);
+      normal_slope += weight * contact.law->normal_stiffness(contact.indentation);
       pressure += weight * contact.law->force(contact.indentation);
     }
     law.stick_slope = slope;
+    law.normal_slope = normal_slope;
     law.elastic_slip = problem.friction_coefficient * pressure / slope;
   }
   return law;
@@ -235,7 +245,29 @@ std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, st
                      rank, which == DeckCase::low ? "lowest" : "highest");
 }
 
-void check(const DeckProblem& problem, detail::DeckContent content) {
+/// Throws InvalidInput if the deck would have no content, or none of what was asked for.
+void check_conduction(const DeckProblem& problem, const detail::DeckWriter& writer) {
+  const bool asked = !problem.conductivity.empty();
+  require_that(
+      !asked || writer.takes_conductance, "conductivity",
+      fmt::format("given, but {} has no conductance in salebra's decks", name_of(problem.format)));
+  if (asked) {
+    require_that(!std::isnan(problem.contact_modulus), "contact_modulus",
+                 "not given, but the conductance needs it");
+    Conduction{.conductivity = problem.conductivity, .resistivity = {}}.validate();
+    require_positive(problem.contact_modulus, "contact_modulus");
+  }
+  require_that(problem.format != DeckFormat::elmer || asked, "conductivity",
+               "not given, but a deck for Elmer contains only the conductance");
+  require_that(
+      problem.format != DeckFormat::moose || asked || !std::isnan(problem.friction_coefficient),
+      "friction_coefficient",
+      "not given, and no conductivity either, but a deck for MOOSE contains one of them");
+}
+
+void check(const DeckProblem& problem, const detail::DeckWriter& writer) {
+  const detail::DeckContent content = writer.content;
+  check_conduction(problem, writer);
   const bool table = content == detail::DeckContent::table;
   const bool springs = content == detail::DeckContent::springs;
   require(!problem.contacts.empty(), "contacts", 0, "given; give at least one");
@@ -285,12 +317,15 @@ void convert(Deck& deck) {
     scale(law.normal_stiffness, Dimension::stiffness_per_area);
     scale(law.tangential_stiffness, Dimension::stiffness_per_area);
     scale(law.stick_slope, Dimension::stiffness_per_area);
+    scale(law.normal_slope, Dimension::stiffness_per_area);
+    scale(law.conductance, Dimension::thermal_conductance);
     scale(law.elastic_slip, Dimension::length);
   }
   for (detail::Slider& slider : deck.sliders) {
     scale(slider.stiffness, Dimension::stiffness);
     scale(slider.slider_force, Dimension::force);
   }
+  scale(deck.start, Dimension::length);
   scale(deck.exponential_pressure, Dimension::pressure);
   scale(deck.exponential_length, Dimension::length);
 }
@@ -366,6 +401,13 @@ void add_table(Deck& deck, int max_rows, DeckSolution& answer) {
         problem.friction_coefficient,
         deck.laws.front().elastic_slip * deck.laws.front().stick_slope /
             problem.friction_coefficient * pascal));
+  if (deck.has_conductance())
+    deck.header.push_back(
+        fmt::format("Conductance: thermal, of the solid contact per nominal area, for "
+                    "conductivities {:g} W/(m K) "
+                    "and the contact modulus {:.6g}. Unit: {:g} W/(m^2 K).",
+                    fmt::join(problem.conductivity, ", "), problem.contact_modulus * pascal,
+                    problem.units.in_si(Dimension::thermal_conductance)));
 }
 
 /// Indices of the contacts of the requested case, and a text that says which contacts these are.
@@ -441,6 +483,7 @@ void add_springs(Deck& deck) {
       LawSpringsOptions{.friction_coefficient = friction ? problem.friction_coefficient
                                                          : std::numeric_limits<double>::infinity(),
                         .springs = problem.sliders});
+  deck.start = std::isnan(first.indentation) ? (lowest + highest) / 2 : first.indentation;
   const double metre = 1 / problem.units.in_si(Dimension::length),
                newton = 1 / problem.units.in_si(Dimension::force);
   deck.header.push_back(
@@ -497,7 +540,7 @@ DeckContact deck_contact(ContactProblem problem, const Context& context) {
 DeckSolution solve(const DeckProblem& asked) {
   const DeckProblem problem = of_part(asked);
   const detail::DeckWriter& writer = detail::writer_of(problem.format);
-  check(problem, writer.content);
+  check(problem, writer);
   DeckSolution answer;
   answer.surfaces = int(problem.contacts.size());
   Deck deck{.problem = problem, .header = opening(problem)};
@@ -513,6 +556,10 @@ DeckSolution solve(const DeckProblem& asked) {
       break;
   }
   convert(deck);
+  if (problem.format == DeckFormat::fmu) {
+    deck.library = detail::fmu_library(deck);
+    if (!deck.library.empty()) answer.platform = detail::platform();
+  }
   answer.text = writer.write(deck);
   return answer;
 }

@@ -14,6 +14,7 @@
 
 #include "base/printable.hpp"
 #include "c_header.hpp"
+#include "fmu.hpp"
 #include "io/json.hpp"
 
 namespace salebra::detail {
@@ -70,6 +71,7 @@ std::string csv(const Deck& deck) {
     column("pressure" + end, law.pressure);
     column("normal_stiffness" + end, law.normal_stiffness);
     column("tangential_stiffness" + end, law.tangential_stiffness);
+    column("thermal_conductance" + end, law.conductance);
   }
   text += "\n";
   for (std::size_t i = 0; i < deck.clearance.size(); ++i)
@@ -88,6 +90,7 @@ std::string json(const Deck& deck) {
              {"pressure", law.pressure},
              {"normal_stiffness", law.normal_stiffness}};
     if (!law.tangential_stiffness.empty()) one["tangential_stiffness"] = law.tangential_stiffness;
+    if (deck.has_conductance()) one["thermal_conductance"] = law.conductance;
     if (deck.has_friction()) {
       one["stick_slope"] = law.stick_slope;
       one["elastic_slip"] = law.elastic_slip;
@@ -151,6 +154,17 @@ std::string overclosures(const std::vector<DeckRow>& rows) {
   return text;
 }
 
+/// The conductance over the pressure, a line for each row: `row` is a format of pressure and
+/// conductance. Without pressure there is no conductance.
+std::string conductances_of(const Deck& deck, const DeckLaw& law, const char* row) {
+  const std::vector<DeckRow> rows = rows_of(deck, law, first_clearance(deck));
+  std::string text;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    text += fmt::format(fmt::runtime(row), rows[i].pressure,
+                        i > 0 ? number(law.conductance[i - 1]) : "0");
+  return text;
+}
+
 /// CalculiX CrunchiX User's Manual, *SURFACE BEHAVIOR and *FRICTION. EXPONENTIAL takes the pressure
 /// p0 at clearance 0 and the clearance c0 at which the pressure is 1 % of p0: p = p0 exp(−g ln
 /// 100/c0) at the clearance g. TABULAR takes pressure and overclosure (the negative of the
@@ -159,8 +173,13 @@ std::string overclosures(const std::vector<DeckRow>& rows) {
 /// measured from the clearance where the pressure begins. *FRICTION takes μ and the stick slope, a
 /// force per volume. In version 2.20, TYPE=NODE TO SURFACE follows both keywords; SURFACE TO
 /// SURFACE has no force before the surfaces touch, and stops if a table has more than some twenty
-/// rows.
+/// rows. *GAP CONDUCTANCE takes conductance and pressure; version 2.20 computes the pressure of a
+/// heat step for EXPONENTIAL, but passes no heat with TABULAR.
 std::string calculix(const Deck& deck) {
+  require_that(
+      !deck.has_conductance() || !std::isnan(deck.exponential_length), "conductivity",
+      "given, but CalculiX passes no heat where the pressure is a table, only where the law "
+      "is exponential");
   std::string text = comments(deck, {"**"}) + "** For *CONTACT PAIR, TYPE=NODE TO SURFACE.\n";
   for (const DeckLaw& law : deck.laws) {
     text += fmt::format("** {}: {}\n", law.name, law.what);
@@ -179,6 +198,8 @@ std::string calculix(const Deck& deck) {
     if (deck.has_friction())
       text += fmt::format("*FRICTION\n{}, {}\n", number(deck.problem.friction_coefficient),
                           number(law.stick_slope));
+    if (deck.has_conductance())
+      text += "*GAP CONDUCTANCE\n" + conductances_of(deck, law, "{1}, {0}\n");
   }
   return text;
 }
@@ -187,7 +208,8 @@ std::string calculix(const Deck& deck) {
 /// ascending order of overclosure, the first row with pressure 0, and continues the last slope. The
 /// EXPONENTIAL of Abaqus reaches pressure 0 at a finite clearance g, and so is not the function
 /// exp(−g/l). *FRICTION with ELASTIC SLIP is a penalty method: the stick stiffness is μp divided by
-/// the elastic slip.
+/// the elastic slip. *GAP CONDUCTANCE takes conductance and
+/// pressure.
 std::string abaqus(const Deck& deck) {
   std::string text = comments(deck, {"**"});
   for (const DeckLaw& law : deck.laws) {
@@ -198,6 +220,8 @@ std::string abaqus(const Deck& deck) {
     if (deck.has_friction())
       text += fmt::format("*FRICTION, ELASTIC SLIP={}\n{},\n", number(law.elastic_slip),
                           number(deck.problem.friction_coefficient));
+    if (deck.has_conductance())
+      text += "*GAP CONDUCTANCE, PRESSURE\n" + conductances_of(deck, law, "{1}, {0}\n");
   }
   return text;
 }
@@ -255,12 +279,74 @@ std::string code_aster(const Deck& deck) {
   return text;
 }
 
+/// MOOSE, syntax/Contact and PenaltyFrictionUserObject: with formulation = mortar_penalty the
+/// pressure is `penalty` times the penetration, and the tangential stress penalty_friction times the
+/// slip, up to friction_coefficient times the pressure. GapHeatTransfer reads the material property
+/// gap_conductance<appended_property_name> and its derivative ..._dT;
+/// PiecewiseLinearInterpolationMaterial makes one of a variable by a table, constant beyond it.
+std::string moose(const Deck& deck) {
+  std::string text = comments(deck, {"#"});
+  std::string contact, materials;
+  for (const DeckLaw& law : deck.laws) {
+    const std::string name = "salebra_" + law.name;
+    if (deck.has_friction())
+      contact += fmt::format(
+          "  [{}]  # {}; elastic slip {}\n    # add: primary, secondary\n"
+          "    formulation = mortar_penalty\n    model = coulomb\n    friction_coefficient = {}\n"
+          "    penalty = {}\n    penalty_friction = {}\n  []\n",
+          name, law.what, number(law.elastic_slip), number(deck.problem.friction_coefficient),
+          number(law.normal_slope), number(law.stick_slope));
+    if (!deck.has_conductance()) continue;
+    std::string pressure, conductance;
+    const std::string end = "\n         ";
+    pressure = conductances_of(deck, law, "{0}\n         ");
+    conductance = conductances_of(deck, law, "{1}\n         ");
+    pressure.resize(pressure.size() - end.size());
+    conductance.resize(conductance.size() - end.size());
+    materials += fmt::format(
+        "  [{0}]  # {1}\n    # add: boundary\n    type = PiecewiseLinearInterpolationMaterial\n"
+        "    property = gap_conductance_{0}\n    variable = contact_pressure\n    x = '{2}'\n"
+        "    y = '{3}'\n  []\n  [{0}_dT]\n    # add: boundary\n    type = GenericConstantMaterial\n"
+        "    prop_names = gap_conductance_{0}_dT\n    prop_values = 0\n  []\n",
+        name, law.what, pressure, conductance);
+  }
+  if (deck.has_friction())
+    text +=
+        "# penalty and penalty_friction are the stiffnesses per area at the mean pressure of the\n"
+        "# operating point: the normal law of MOOSE is linear.\n[Contact]\n" +
+        contact + "[]\n";
+  if (deck.has_conductance())
+    text +=
+        "# For the boundary condition GapHeatTransfer with appended_property_name = "
+        "_salebra_mean;\n"
+        "# contact_pressure: the variable with the pressure.\n[Materials]\n" +
+        materials + "[]\n";
+  return text;
+}
+
+/// Elmer, HeatSolver with discontinuous Galerkin: Heat Gap Coefficient of a boundary condition, which
+/// may be a table of a variable (ElmerSolver Manual, section on keyword syntax), linear beyond its
+/// ends.
+std::string elmer(const Deck& deck) {
+  const auto asked = std::ranges::find(deck.laws, name_of(deck.problem.of), &DeckLaw::name);
+  const DeckLaw& law = asked == deck.laws.end() ? deck.laws.front() : *asked;
+  return comments(deck, {"!"}) +
+         fmt::format(
+             "! {}: {}\n! For the Boundary Condition of the contact, with a heat solver of\n"
+             "! discontinuous Galerkin; Contact Pressure: the variable with the pressure.\n"
+             "  Heat Gap = Logical True\n  Heat Gap Coefficient = Variable \"Contact Pressure\"\n"
+             "    Real\n{}    End\n",
+             law.name, law.what, conductances_of(deck, law, "      {} {}\n"));
+}
+
 std::string jenkins(const Deck& deck) {
   std::string text = comments(deck, {"#"}) + "stiffness,slider_force\n";
   for (const Slider& slider : deck.sliders)
     text += fmt::format("{},{}\n", slider.stiffness, slider.slider_force);
   return text;
 }
+
+}  // namespace
 
 std::string header_of_c(const Deck& deck) {
   const UnitSystem& units = deck.problem.units;
@@ -269,8 +355,6 @@ std::string header_of_c(const Deck& deck) {
                                   .length_unit = units.in_si(Dimension::length),
                                   .force_unit = units.in_si(Dimension::force)});
 }
-
-}  // namespace
 
 bool Deck::has_friction() const { return !std::isnan(problem.friction_coefficient); }
 
@@ -313,14 +397,17 @@ double first_clearance(const Deck& deck) {
 
 const DeckWriter& writer_of(DeckFormat format) {
   static constexpr std::array writers{
-      DeckWriter{DeckFormat::csv, csv},
-      DeckWriter{DeckFormat::json, json},
-      DeckWriter{DeckFormat::calculix, calculix, DeckContent::table, 198},
-      DeckWriter{DeckFormat::abaqus, abaqus},
+      DeckWriter{DeckFormat::csv, csv, DeckContent::table, 100000, true},
+      DeckWriter{DeckFormat::json, json, DeckContent::table, 100000, true},
+      DeckWriter{DeckFormat::calculix, calculix, DeckContent::table, 198, true},
+      DeckWriter{DeckFormat::abaqus, abaqus, DeckContent::table, 100000, true},
       DeckWriter{DeckFormat::ansys, ansys, DeckContent::table, 19},
       DeckWriter{DeckFormat::code_aster, code_aster},
+      DeckWriter{DeckFormat::moose, moose, DeckContent::table, 100000, true},
+      DeckWriter{DeckFormat::elmer, elmer, DeckContent::table, 100000, true},
       DeckWriter{DeckFormat::jenkins, jenkins, DeckContent::sliders},
       DeckWriter{DeckFormat::c_header, header_of_c, DeckContent::springs},
+      DeckWriter{DeckFormat::fmu, fmu, DeckContent::springs},
   };
   return *std::ranges::find(writers, format, &DeckWriter::format);
 }

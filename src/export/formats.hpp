@@ -17,7 +17,9 @@ struct DeckLaw {
   std::string what;  ///< which contacts it describes, such as "surface 3, the lowest of 8"
   std::vector<double> pressure, normal_stiffness;
   std::vector<double> tangential_stiffness = {};  ///< empty if not known
+  std::vector<double> conductance = {};           ///< thermal, W/(m² K) in SI; empty if not wanted
   double stick_slope = DeckContact::unknown;      ///< K_t per nominal area at the operating point
+  double normal_slope = DeckContact::unknown;     ///< K per nominal area there
   /// μp/stick_slope, with the pressure p at the operating point.
   double elastic_slip = DeckContact::unknown;
 };
@@ -35,11 +37,14 @@ struct Deck {
   std::vector<DeckLaw> laws = {};        ///< the mean; for several surfaces also low and high
   std::vector<Slider> sliders = {};      ///< in the order in which they slip
   std::shared_ptr<const LawSprings> springs = {};
+  double start = 0;          ///< indentation at which an FMU starts
+  std::string library = {};  ///< the shared library of an FMU, if there is one
   /// Pressure at clearance 0, if the deck has one exponential law.
   double exponential_pressure = DeckContact::unknown;
   double exponential_length = DeckContact::unknown;  ///< decay length l of this law
 
   bool has_friction() const;
+  bool has_conductance() const { return !problem.conductivity.empty(); }
 };
 
 /// How a format marks a comment, and which strings would end the comment or act as commands in it.
@@ -67,6 +72,7 @@ struct DeckWriter {
   std::string (*write)(const Deck&);
   DeckContent content = DeckContent::table;
   int max_rows = 100000;
+  bool takes_conductance = false;
 };
 const DeckWriter& writer_of(DeckFormat format);
 

@@ -53,6 +53,8 @@ Exponents exponents_of(Dimension dimension) {
       return {-2, 1, -2};
     case Dimension::energy:
       return {2, 1, -2};
+    case Dimension::thermal_conductance:
+      return {0, 1, -3};
     default:
       throw InvalidInput("dimension", si_unit(dimension), "has no unit in a deck");
   }

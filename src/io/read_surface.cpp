@@ -2,12 +2,9 @@
 // Reader of surfaces: finds the format by the content of the file, and completes size, unit and
 // period by the options.
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/row_partition.hpp>
@@ -25,6 +22,7 @@
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
 #include "plain_content.hpp"
+#include "scratch_folder.hpp"
 #include "surface/plausibility.hpp"
 #include "surface_format.hpp"
 #include "surface_importer.hpp"
@@ -33,27 +31,6 @@ namespace salebra {
 namespace {
 
 SurfaceImporter surface_importer = nullptr;
-
-/// A temporary folder for the result of an importer; the destructor removes it.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_(std::filesystem::temp_directory_path() / "salebra-import-XXXXXX") {
-    std::string name = path_.string();
-    if (mkdtemp(name.data()) == nullptr)
-      throw IoError(path_.string() + ": cannot be made (" + std::strerror(errno) + ")");
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions& options) {
   try {
@@ -67,7 +44,7 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
     // An HDF5 file is not passed to the importer, whose HDF5 library would follow links to other
     // files.
     if (detail::InputFile(file).may_be_hdf5()) throw;
-    const ScratchFolder scratch;
+    const detail::ScratchFolder scratch("import");
     std::vector<std::string> warnings =
         surface_importer(file, scratch / "surface.h5", options.channel, refusal);
     detail::LoadedSurface loaded = detail::read_hdf5(scratch / "surface.h5");

@@ -170,13 +170,18 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
 }
 
 TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
-  const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
-                               DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster,
-                               DeckFormat::jenkins, DeckFormat::c_header);
+  const auto format =
+      GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix, DeckFormat::abaqus,
+               DeckFormat::ansys, DeckFormat::code_aster, DeckFormat::moose, DeckFormat::elmer,
+               DeckFormat::jenkins, DeckFormat::c_header);
   DeckProblem problem;
   problem.contacts = {cubic()};
   problem.format = format;
   problem.friction_coefficient = 0.3;
+  if (format == DeckFormat::moose || format == DeckFormat::elmer) {
+    problem.conductivity = conductivity;
+    problem.contact_modulus = contact_modulus;
+  }
   // The part that the other program would run: the deck without its comments.
   const auto commands = [&](const std::string& text) {
     if (format == DeckFormat::json) return nlohmann::json::parse(text)["laws"].dump();
@@ -186,7 +191,7 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
         rest.erase(begin, rest.find("*/", begin) + 2 - begin);
       return rest;
     }
-    const std::string mark = format == DeckFormat::ansys                                      ? "!"
+    const std::string mark = format == DeckFormat::ansys || format == DeckFormat::elmer       ? "!"
                              : format == DeckFormat::calculix || format == DeckFormat::abaqus ? "**"
                                                                                               : "#";
     std::string rest;
@@ -238,6 +243,95 @@ TEST_CASE("Friction of decks is the stick slope at the position and the slip tha
   const double slip = std::stod(text.substr(text.find("ELASTIC SLIP=") + 13));
   CHECK(slip == Approx(0.3 * force0 / area0 / 8 / slope * 1e3).epsilon(1e-6));
   CHECK(rows_after(text, "*FRICTION")[0][0] == 0.3);
+}
+
+TEST_CASE("Friction for MOOSE has the stiffnesses per area at the position", "[export]") {
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.friction_coefficient = 0.3;
+  problem.units = parse_unit_system("mm,t,s");
+  problem.format = DeckFormat::moose;
+  const std::string text = solve(problem).text;
+  const auto value = [&](const std::string& name) {
+    return std::stod(text.substr(text.find(" " + name + " = ") + name.size() + 4));
+  };
+  // As in the test above: K/A = 3p/(h/2) at p = p0/8, K_t = 0.8 K, and 1 N/mm³ = 1e9 N/m³.
+  const double slope = 3 * (force0 / area0 / 8) / 0.5e-6 * 1e-9;
+  CHECK(value("friction_coefficient") == 0.3);
+  CHECK(value("penalty") == Approx(slope).epsilon(1e-6));
+  CHECK(value("penalty_friction") == Approx(0.8 * slope).epsilon(1e-6));
+  const double slip = std::stod(text.substr(text.find("elastic slip ") + 13));
+  CHECK(slip == Approx(0.3 * force0 / area0 / 8 * 1e-6 / (0.8 * slope)).epsilon(1e-6));
+  CHECK_THAT(text, !Contains("gap_conductance"));
+}
+
+TEST_CASE("The conductance over the pressure is that of the stiffness, in every unit system",
+          "[export]") {
+  const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::abaqus,
+                               DeckFormat::moose, DeckFormat::elmer);
+  // The units of pressure, mass/(length time²), and of conductance, mass/(time³ K), in SI.
+  const auto [name, pascal, unit] =
+      GENERATE(std::tuple("m,kg,s", 1., 1.), std::tuple("mm,t,s", 1e6, 1e3),
+               std::tuple("mm,kg,ms", 1e9, 1e9));
+  INFO(name_of(format) << " " << name);
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.format = format;
+  problem.units = parse_unit_system(name);
+  problem.conductivity = conductivity;
+  problem.contact_modulus = contact_modulus;
+  const std::string text = solve(problem).text;
+  std::vector<std::pair<double, double>> table;
+  if (format == DeckFormat::json) {
+    const auto law = nlohmann::json::parse(text)["laws"]["mean"];
+    for (std::size_t i = 0; i < law["pressure"].size(); ++i)
+      table.emplace_back(law["pressure"][i], law["thermal_conductance"][i]);
+  } else if (format == DeckFormat::csv) {
+    for (const auto& row : rows_after(text, "clearance,pressure"))
+      table.emplace_back(row[1], row.back());
+  } else if (format == DeckFormat::elmer) {
+    for (const auto& row : rows_after(text, "    Real")) table.emplace_back(row[0], row[1]);
+  } else if (format == DeckFormat::moose) {
+    std::istringstream x(text.substr(text.find("x = '") + 5)),
+        y(text.substr(text.find("y = '") + 5));
+    for (double pressure = 0, value = 0; x >> pressure && y >> value;)
+      table.emplace_back(pressure, value);
+  } else {
+    for (const auto& row : rows_after(text, "*GAP CONDUCTANCE")) table.emplace_back(row[1], row[0]);
+  }
+  if (format != DeckFormat::csv && format != DeckFormat::json) {
+    CHECK(table.front() == std::pair(0., 0.));
+    table.erase(table.begin());
+  }
+  CHECK(table.size() >= 198);
+  for (const auto& [pressure, value] : table)
+    REQUIRE(value * unit == Approx(conductance(pressure * pascal)).epsilon(1e-5));
+}
+
+TEST_CASE("A conductance needs E*, and a format that has one", "[export]") {
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.conductivity = conductivity;
+  CHECK_THAT(refusal(problem), Contains("contact_modulus"));
+  problem.contact_modulus = contact_modulus;
+  CHECK(refusal(problem).empty());
+  problem.conductivity = {-1};
+  CHECK_THAT(refusal(problem), Contains("conductivity"));
+  problem.conductivity = {1, 2, 3};
+  CHECK_THAT(refusal(problem), Contains("conductivity: 3"));
+  problem.conductivity = conductivity;
+  problem.format = DeckFormat::calculix;
+  CHECK_THAT(refusal(problem), Contains("conductivity: given, but CalculiX"));
+  for (const DeckFormat format : {DeckFormat::ansys, DeckFormat::code_aster, DeckFormat::jenkins,
+                                  DeckFormat::c_header, DeckFormat::fmu}) {
+    problem.format = format;
+    CHECK_THAT(refusal(problem), Contains("conductivity: given, but"));
+  }
+  problem.conductivity = {};
+  problem.format = DeckFormat::elmer;
+  CHECK_THAT(refusal(problem), Contains("conductivity: not given"));
+  problem.format = DeckFormat::moose;
+  CHECK_THAT(refusal(problem), Contains("no conductivity either"));
 }
 
 TEST_CASE("CalculiX's exponential has the decay length of the law, and 1 % of p0 at c0",

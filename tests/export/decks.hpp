@@ -43,6 +43,16 @@ inline DeckContact cubic(double factor = 1) {
                                    "curve"});
 }
 
+/// Thermal conductivities of two bodies, W/(m K), and the contact modulus, Pa.
+inline const std::vector<double> conductivity{50, 400};
+constexpr double contact_modulus = 115e9;
+
+/// h of the cubic law at a pressure, W/(m² K): K/A = 3 p/(rest h_rms), rest = (p A/F0)^(1/3).
+inline double conductance(double pressure) {
+  const double rest = std::cbrt(pressure * area0 / force0);
+  return 2 * (3 * pressure / (rest * 1e-6)) / (contact_modulus * (1 / 50. + 1 / 400.));
+}
+
 /// Rows of numbers after the first line with `start`, up to a line without numbers. Characters that
 /// belong to no number separate numbers.
 inline std::vector<std::vector<double>> rows_after(const std::string& text,

@@ -16,7 +16,19 @@
 /// their manuals).
 namespace salebra {
 
-enum class DeckFormat { csv, json, calculix, abaqus, ansys, code_aster, jenkins, c_header };
+enum class DeckFormat {
+  csv,
+  json,
+  calculix,
+  abaqus,
+  ansys,
+  code_aster,
+  moose,
+  elmer,
+  jenkins,
+  c_header,
+  fmu
+};
 template <>
 struct EnumNames<DeckFormat> {
   static constexpr auto values = std::to_array<std::pair<DeckFormat, std::string_view>>(
@@ -26,8 +38,11 @@ struct EnumNames<DeckFormat> {
        {DeckFormat::abaqus, "abaqus"},
        {DeckFormat::ansys, "ansys"},
        {DeckFormat::code_aster, "code_aster"},
+       {DeckFormat::moose, "moose"},
+       {DeckFormat::elmer, "elmer"},
        {DeckFormat::jenkins, "jenkins"},
-       {DeckFormat::c_header, "c_header"}});
+       {DeckFormat::c_header, "c_header"},
+       {DeckFormat::fmu, "fmu"}});
 };
 
 /// Selects one of several surfaces for a deck. `mean` is the mean of the surfaces. `low` and `high`
@@ -83,17 +98,22 @@ struct DeckProblem {
   std::optional<std::pair<double, double>> pressure_window = {};
   int rows = 200;                ///< rows of a table, 4 to 100000; at most 198 for CalculiX, 19 for
                                  ///< Ansys
-  DeckCase of = DeckCase::mean;  ///< for jenkins and c_header; other formats have all cases
-  int sliders = 200;        ///< Jenkins sliders, 2 to 100000; in a C header: springs, 8 to 4096
-  double min_force = 0.01;  ///< smallest T/(μF) at which the loss of the sliders is accurate
-  std::string name = "contact";  ///< prefix of every name in a C header
-  std::string source = {};       ///< source of the contacts, written into the deck
-  std::string comment = {};      ///< additional sentence, written into the deck
+  DeckCase of = DeckCase::mean;  ///< for elmer, jenkins, c_header and fmu; other formats have all
+                                 ///< cases
+  /// Jenkins sliders, 2 to 100000; in a C header and an FMU: springs, 8 to 4096.
+  int sliders = 200;
+  double min_force = 0.01;       ///< smallest T/(μF) at which the loss of the sliders is accurate
+  std::string name = "contact";  ///< prefix of every name in a C header; name of an FMU
+  /// Thermal conductivity κ of the bodies, W/(m K), as in Conduction; empty: no conductance in decks.
+  std::vector<double> conductivity = {};
+  double contact_modulus = DeckContact::unknown;  ///< E*, Pa; only for the conductance
+  std::string source = {};                        ///< source of the contacts, written into the deck
+  std::string comment = {};                       ///< additional sentence, written into the deck
   Provenance provenance = {};
 };
 
 struct DeckSolution {
-  std::string text;  ///< the deck
+  std::string text;  ///< the deck; of an FMU the bytes of its ZIP archive
   int surfaces = 0;  ///< number of surfaces used
   /// Largest relative error of the pressure when it is interpolated linearly between the rows of
   /// the mean law; below the lowest load of a curve the error is relative to the pressure there.
@@ -102,6 +122,7 @@ struct DeckSolution {
   double slip_force = DeckContact::unknown;            ///< total μF, N
   /// Relative error of the loss of the Jenkins sliders at the force DeckProblem::min_force.
   double loss_error = DeckContact::unknown;
+  std::string platform = {};  ///< of the shared library in an FMU; empty: it has sources only
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
@@ -115,6 +136,7 @@ constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
   visit(&S::slip_force, Kept{"slip_force", "tangential force at which all slips", force});
   visit(&S::loss_error,
         Quantity{"loss_error", dimensionless, "error of the loss at the smallest force"});
+  visit(&S::platform, Kept{"platform", "platform of the shared library in an FMU"});
 }
 
 /// Writes the text of a deck:
@@ -128,9 +150,13 @@ constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
 /// with their total stiffness and force: T and T' are exact at these displacements, and so are the
 /// total K_t and μF. The error of the loss is of second order in the number of sliders. A C header
 /// implements the steps of ContactElement without dependencies, with springs over the range of
-/// clearances of the deck; without a coefficient of friction the contact is in full stick.
+/// clearances of the deck; without a coefficient of friction the contact is in full stick. An FMU is a
+/// co-simulation unit of FMI 3.0 that takes these steps; its shared library is compiled by the
+/// program `cc`, if there is one. The thermal conductance h = 2K/[A E*(1/κ_1 + 1/κ_2)] is a table over
+/// the pressure, from h = 0 at p = 0.
 /// throws  InvalidInput for a force that does not grow with approach, a curve that is not convex, a
-///         missing area, K_t, operating point or coefficient of friction that the format needs,
+///         missing area, K_t, operating point, E* or coefficient of friction that the format needs, a
+///         conductivity for a format without conductance,
 ///         surfaces without a common range, and numbers out of range
 /// cost    about ten evaluations of each law for each row or slider
 DeckSolution solve(const DeckProblem& problem);

@@ -13,7 +13,8 @@ struct UnitSystem {
   std::string length = "m", mass = "kg", time = "s";
 
   /// Returns the SI value of the unit of a dimension, e.g. 1e6 (Pa) for a pressure in mm, t, s.
-  /// Throws InvalidInput for a dimension that is not mechanical, such as an angle in degrees.
+  /// The unit of temperature is 1 K. Throws InvalidInput for a dimension that no deck has, such as an
+  /// angle in degrees.
   double in_si(Dimension dimension) const;
   /// Returns the three units as text, e.g. "mm, t, s".
   std::string text() const { return length + ", " + mass + ", " + time; }
