@@ -153,7 +153,8 @@ void bind_regime_map(nb::module_& m) {
       nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
       nb::arg("angular_frequency"), nb::arg("velocities"), nb::arg("excursions"), nb::kw_only(),
       nb::arg("friction_coefficient"),
-      "Regime (no slip, partial slip, lifts off, sliding) and loss over the loss without slip, for slow "
+      "Regime (no slip, partial slip, lifts off, sliding) and loss over the loss without slip, for "
+      "slow "
       "motions of "
       "these velocities (m/s) and excursions (m) under a normal oscillation.");
 }
