@@ -112,8 +112,8 @@ void run(const JointArguments& arguments, Session& session) {
       .normal_amplitude = arguments.normal_amplitude.value_or(0),
       .phase = arguments.phase.value_or(0),
       .hold = arguments.hold.empty() ? Hold::automatic : *parse_enum<Hold>(arguments.hold),
-      .angular_frequency = arguments.angular_frequency.value_or(
-          2 * std::numbers::pi * arguments.frequency.value_or(0)),
+      .angular_frequency = arguments.angular_frequency.value_or(2 * std::numbers::pi *
+                                                                arguments.frequency.value_or(0)),
       .parameters = arguments.assumptions.parameters(arguments.material),
       .steps = arguments.steps,
       .direct_steps = arguments.direct_steps};

@@ -80,12 +80,11 @@ std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactL
     return !context.on_progress || context.on_progress(report);
   };
   for (const TangentialOscillation& motion : problem.motions)
-    losses.push_back(
-        problem.normal_amplitude != 0
-            ? joint_loss(law, point,
-                         {motion, problem.normal_amplitude, problem.phase, problem.hold}, friction,
-                         problem.steps, of_all)
-            : joint_loss(law, point, motion, friction));
+    losses.push_back(problem.normal_amplitude != 0 ? joint_loss(law, point,
+                                                                {motion, problem.normal_amplitude,
+                                                                 problem.phase, problem.hold},
+                                                                friction, problem.steps, of_all)
+                                                   : joint_loss(law, point, motion, friction));
   return losses;
 }
 

@@ -332,8 +332,9 @@ JointRegime regime_of(const ContactLaw& law, const JointMotion& motion, const Jo
   const bool lifts_off = loss.contact_time < 1;
   const std::complex<double> turned = std::polar(reach, motion.phase);
   const double stuck =
-      lifts_off ? loss.indentation + amplitude - reach
-                : loss.indentation - (std::abs(turned - amplitude) + std::abs(turned + amplitude)) / 2;
+      lifts_off
+          ? loss.indentation + amplitude - reach
+          : loss.indentation - (std::abs(turned - amplitude) + std::abs(turned + amplitude)) / 2;
   const double carried = lifts_off ? loss.max_force : loss.mean_force;
   if (!(law.force(stuck) >= share_that_matters * carried)) return JointRegime::slides;
   if (lifts_off) return JointRegime::lifts_off;
@@ -402,8 +403,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   const double high = indentation_of(law, point);
   detail::require_possible(law, high, 0, [&](double) { return high; });
   JointLoss loss = loss_of_springs(law, high, motion, friction_coefficient, options.tolerance);
-  const double depth =
-      (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
+  const double depth = (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
   if (detail::reaches_below_table(law, high - depth)) {
     const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
     loss.work_error =
@@ -505,8 +505,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
   detail::require_possible(
       law, rest, amplitude, [&](double one) { return middle_of(law, one); }, hold);
   const double mean = middle_of(law, amplitude);
-  const double mean_force =
-      hold == Hold::force ? force : mean_force_of_cycle(law, mean, amplitude);
+  const double mean_force = hold == Hold::force ? force : mean_force_of_cycle(law, mean, amplitude);
   if (const auto* by_force = std::get_if<TangentialForce>(&motion.tangential))
     require(contact_time(law, mean, amplitude) == 1, "tangential_force", by_force->amplitude,
             "N cannot be kept while the normal oscillation lifts the bodies apart; give a "

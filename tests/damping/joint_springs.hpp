@@ -16,9 +16,9 @@ namespace salebra_test {
 class JointSprings {
  public:
   struct Loop {
-    double work = 0, force = 0;                      ///< J, half the range of T in N
+    double work = 0, force = 0;                        ///< J, half the range of T in N
     double storage_stiffness = 0, loss_stiffness = 0;  ///< first harmonic of T over that of x, N/m
-    double mean_force = 0, max_friction = 0;         ///< cycle mean of F, N; largest |T|/F
+    double mean_force = 0, max_friction = 0;           ///< cycle mean of F, N; largest |T|/F
   };
 
   /// Springs between the depths `low` and `high`; F(low) must be 0 or negligible.
@@ -33,10 +33,10 @@ class JointSprings {
       const double a = edge(i), b = edge(i + 1);
       const double normal = law.normal_stiffness(b) - law.normal_stiffness(a);
       if (!(normal > 0)) continue;
-      const double moment = b * law.normal_stiffness(b) - a * law.normal_stiffness(a) -
-                            (law.force(b) - law.force(a));
-      springs_.push_back({moment / normal, normal,
-                          law.tangential_stiffness(b) - law.tangential_stiffness(a)});
+      const double moment =
+          b * law.normal_stiffness(b) - a * law.normal_stiffness(a) - (law.force(b) - law.force(a));
+      springs_.push_back(
+          {moment / normal, normal, law.tangential_stiffness(b) - law.tangential_stiffness(a)});
     }
   }
 

@@ -254,15 +254,14 @@ TEST_CASE("A joint from partial slip to a hundred times its knee is a sum over s
   const IndenterLaw sphere(paraboloid_profile(10e-3), Material::of_contact_modulus(115e9, 0.3));
   const ExponentialLaw rough(1, 3e-8, ratio);
   const TabulatedLaw curve = measured_curve();
-  double worst = 0;
-  for (const ContactLaw* law : {static_cast<const ContactLaw*>(&sphere),
-                                static_cast<const ContactLaw*>(&rough),
-                                static_cast<const ContactLaw*>(&curve)}) {
+  for (const ContactLaw* law :
+       {static_cast<const ContactLaw*>(&sphere), static_cast<const ContactLaw*>(&rough),
+        static_cast<const ContactLaw*>(&curve)}) {
     const double high = law->indentation_of(1);
     const double low = lowest_spring(*law, high);
     // The exponential law never slides as a whole; its scale is the decay length.
-    const double knee = friction / law->modulus_ratio() *
-                        (std::isfinite(law->first_touch()) ? high - low : 3e-8);
+    const double knee =
+        friction / law->modulus_ratio() * (std::isfinite(law->first_touch()) ? high - low : 3e-8);
     salebra_test::JointSprings springs(*law, low, high, friction, 4000);
     for (const double factor : {0.05, 0.3, 0.9, 1.0, 1.1, 3.0, 10.0, 100.0}) {
       const double x = factor * knee;
@@ -272,13 +271,11 @@ TEST_CASE("A joint from partial slip to a hundred times its knee is a sum over s
       CHECK(loss.converged);
       // The error of the sum is of second order in the width of a spring and in the step. At the
       // smallest amplitude a hundred springs slip.
-      for (const auto& [value, expected] :
-           {std::pair{loss.work_per_cycle, loop.work}, {loss.tangential_force, loop.force},
-            {loss.storage_stiffness, loop.storage_stiffness},
-            {loss.loss_stiffness, loop.loss_stiffness}}) {
+      for (const auto& [value, expected] : {std::pair{loss.work_per_cycle, loop.work},
+                                            {loss.tangential_force, loop.force},
+                                            {loss.storage_stiffness, loop.storage_stiffness},
+                                            {loss.loss_stiffness, loop.loss_stiffness}})
         CHECK(relative(value, expected) < 2e-4);
-        worst = std::max(worst, relative(value, expected));
-      }
       CHECK(loss.loss_factor == Approx(loss.work_per_cycle / (pi * x * loss.tangential_force)));
       if (factor < 1 || !std::isfinite(loss.knee)) continue;
       CHECK(loss.knee == Approx(knee).epsilon(1e-12));
@@ -289,7 +286,6 @@ TEST_CASE("A joint from partial slip to a hundred times its knee is a sum over s
             Approx(4 * (x - loss.elastic_displacement) / (pi * x)).epsilon(1e-9));
     }
   }
-  WARN("worst deviation from the sums over springs: " << worst);
 }
 
 TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the knee", "[joint]") {
@@ -319,7 +315,7 @@ TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the k
     CHECK(std::isinf(loss.knee));
     CHECK(loss.converged);
     // exp(−3) is 5 % of the force.
-    CHECK(loss.regime == (y < 0.01    ? JointRegime::sticks
+    CHECK(loss.regime == (y < 0.01   ? JointRegime::sticks
                           : y < 2.99 ? JointRegime::partial_slip
                                      : JointRegime::slides));
     CHECK(std::isnan(loss.exponent) == (y > 3));
@@ -330,10 +326,11 @@ TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the k
   ForceCurve stuck{.model = "measured", .nominal_area = 1e-6, .samples = {}};
   for (int i = 0; i < 60; ++i) {
     const double force = std::exp(-4 + 0.1 * i);
-    stuck.samples.push_back({.indentation = length * std::log(force),
-                             .force = force,
-                             .normal_stiffness = force / length,
-                             .tangential_stiffness = ratio * force / length * std::pow(force, 0.03)});
+    stuck.samples.push_back(
+        {.indentation = length * std::log(force),
+         .force = force,
+         .normal_stiffness = force / length,
+         .tangential_stiffness = ratio * force / length * std::pow(force, 0.03)});
   }
   const TabulatedLaw table(stuck, ratio);
   const double knee = joint_loss(table, at_force(1), TangentialAmplitude{1e-6}, friction).knee;
@@ -346,8 +343,8 @@ TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the k
   CHECK(above.work_per_cycle == Approx(below.work_per_cycle).epsilon(1e-7));
   CHECK(above.storage_stiffness == Approx(below.storage_stiffness).epsilon(1e-7));
   // K_t/K is 1, G/F is 1/1.03 of it on the exponential part; first touch changes this little.
-  CHECK(knee == Approx(friction / (ratio / 1.03) *
-                       (table.indentation_of(1) - table.first_touch())).epsilon(0.01));
+  CHECK(knee == Approx(friction / (ratio / 1.03) * (table.indentation_of(1) - table.first_touch()))
+                    .epsilon(0.01));
 }
 
 TEST_CASE("Slip below the lowest load of a curve is part of the error, or refused", "[joint]") {
@@ -364,8 +361,7 @@ TEST_CASE("Slip below the lowest load of a curve is part of the error, or refuse
     CHECK(std::abs(cut.work_per_cycle - full.work_per_cycle) < cut.work_error);
   }
   // The slip stays within the loads.
-  CHECK(std::isnan(
-      joint_loss(high, at_force(1), TangentialAmplitude{1e-8}, friction).work_error));
+  CHECK(std::isnan(joint_loss(high, at_force(1), TangentialAmplitude{1e-8}, friction).work_error));
   // At its lowest load nothing of the loss comes from the curve.
   const TabulatedLaw none = measured_curve(0.99);
   CHECK_THROWS_WITH(joint_loss(none, at_force(1), TangentialAmplitude{1e-8}, friction),
@@ -378,11 +374,10 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
   const IndenterLaw sphere(paraboloid_profile(10e-3), Material::of_contact_modulus(115e9, 0.3));
   const ExponentialLaw rough(1, 3e-8, ratio);
   const TabulatedLaw curve = measured_curve();
-  double worst = 0, worst_force = 0;
   int lifted = 0;
-  for (const ContactLaw* law : {static_cast<const ContactLaw*>(&sphere),
-                                static_cast<const ContactLaw*>(&rough),
-                                static_cast<const ContactLaw*>(&curve)}) {
+  for (const ContactLaw* law :
+       {static_cast<const ContactLaw*>(&sphere), static_cast<const ContactLaw*>(&rough),
+        static_cast<const ContactLaw*>(&curve)}) {
     const double rest = law->indentation_of(1);
     const double scale = law == &sphere ? rest : 3e-8;
     for (const double normal : {0.4, 3.0})
@@ -392,23 +387,22 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
             const double u_z = normal * scale;
             const double x = factor * friction / law->modulus_ratio() * scale;
             CAPTURE(int(law == &sphere), int(law == &rough), normal, int(hold), phase, factor);
-            const JointLoss loss = joint_loss(
-                *law, at_force(1), {TangentialAmplitude{x}, u_z, phase, hold}, friction);
+            const JointLoss loss =
+                joint_loss(*law, at_force(1), {TangentialAmplitude{x}, u_z, phase, hold}, friction);
             const double highest = loss.indentation + u_z;
-            salebra_test::JointSprings springs(*law, lowest_spring(*law, highest), highest, friction,
-                                               800);
+            salebra_test::JointSprings springs(*law, lowest_spring(*law, highest), highest,
+                                               friction, 800);
             const auto loop = springs.cycle(loss.indentation, u_z, x, phase, 2000);
-            CHECK(loop.mean_force == Approx(hold == Hold::force ? 1 : loss.mean_force).epsilon(1e-4));
+            CHECK(loop.mean_force ==
+                  Approx(hold == Hold::force ? 1 : loss.mean_force).epsilon(1e-4));
             CHECK(loss.mean_force == Approx(loop.mean_force).epsilon(1e-4));
             CHECK(loss.max_force == Approx(law->force(highest)).epsilon(1e-12));
             CHECK(loop.max_friction < friction * (1 + 1e-9));
-            // Relative to the energy that the motion moves, because a loss may vanish.
-            const double off = std::abs(loss.work_per_cycle - loop.work) /
-                               std::max(loop.work, 0.1 * x * loop.force);
-            const double off_force = relative(loss.tangential_force, loop.force);
-            CHECK(off < 1e-3);
-            CHECK(off_force < 1e-3);
-            worst = std::max(worst, off), worst_force = std::max(worst_force, off_force);
+            // The sum has an error of second order in the width of a spring and in the step, and of
+            // first order in the moment at which a spring begins to stick.
+            CHECK(std::abs(loss.work_per_cycle - loop.work) <
+                  5e-4 * std::max(loop.work, 0.1 * x * loop.force));
+            CHECK(relative(loss.tangential_force, loop.force) < 5e-4);
             if (loss.contact_time < 1) ++lifted;
             if (factor == 100) CHECK(loss.regime == JointRegime::slides);
             if (factor < 0.5 && normal > 1 && law == &sphere)
@@ -416,7 +410,6 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
           }
   }
   CHECK(lifted > 20);
-  WARN("worst deviations of W and T from the sums over springs: " << worst << ", " << worst_force);
   // A tangential force cannot act between bodies that are apart.
   CHECK_THROWS_WITH(
       joint_loss(sphere, at_force(1), {TangentialForce{0.01}, 1e-6, 0, Hold::force}, friction),
