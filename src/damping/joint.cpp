@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -12,6 +13,7 @@
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/tangential_contact.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -47,6 +49,36 @@ constexpr double negligible = 1e-17;
 // A spring slips or sticks as far as its share of the normal force, or of the loss, matters: 5 %.
 constexpr double share_that_matters = 0.05;
 
+// sweep_breaks() between two depths, and the integral of f over ranges of points that the quadrature
+// takes at once. A measured curve may have thousands of loads, at each of which K_t has a kink.
+constexpr std::size_t most_breaks = 400;
+
+std::vector<double> breaks_between(const ContactLaw& law, double low, double high) {
+  std::vector<double> ends{low}, breaks;
+  std::size_t count = 0;
+  for (const double point : law.break_points())
+    if (point > low && point < high && ++count % most_breaks == 0) ends.push_back(point);
+  ends.push_back(high);
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    std::ranges::copy(detail::sweep_breaks(law, ends[i - 1], ends[i]), std::back_inserter(breaks));
+  return breaks;
+}
+
+detail::Integral integral_between(const std::function<double(double)>& f,
+                                  const std::vector<double>& breaks, double tolerance,
+                                  double absolute = 0) {
+  if (breaks.size() <= most_breaks + 3) return detail::integrate(f, breaks, tolerance, absolute);
+  detail::Integral sum;
+  for (std::size_t first = 0; first + 1 < breaks.size(); first += most_breaks) {
+    const std::size_t count = std::min(most_breaks + 1, breaks.size() - first);
+    const detail::Integral part =
+        detail::integrate(f, std::span(breaks).subspan(first, count), tolerance, absolute);
+    sum.value += part.value, sum.error += part.error;
+  }
+  sum.converged = sum.error <= std::max(absolute, tolerance * std::abs(sum.value));
+  return sum;
+}
+
 // All springs of a contact at one indentation, and the slope μ' of their friction limit.
 struct WholeContact {
   WholeContact(const ContactLaw& law, double indentation, double friction_coefficient,
@@ -58,9 +90,9 @@ struct WholeContact {
     if (!std::isfinite(low))
       for (double depth = force / law.normal_stiffness(high);; depth *= 2)
         if (low = high - depth; !(law.tangential_stiffness(low) > negligible * stiffness)) break;
-    const std::vector<double> breaks = detail::sweep_breaks(law, low, high);
+    const std::vector<double> breaks = breaks_between(law, low, high);
     const auto moment = [&](auto&& weight) {
-      const detail::Integral found = detail::integrate(
+      const detail::Integral found = integral_between(
           [&](double at) { return law.tangential_stiffness(at) * weight(high - at); }, breaks,
           tolerance);
       converged = converged && found.converged;
@@ -88,7 +120,7 @@ class SlippingSprings {
  public:
   SlippingSprings(const ContactLaw& law, double high, double depth, double tolerance)
       : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
-    for (const double spring_depth : detail::sweep_breaks(law, high - depth, high))
+    for (const double spring_depth : breaks_between(law, high - depth, high))
       breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - spring_depth, 0.0)),
                                        std::sqrt(std::max(spring_depth - (high - depth), 0.0))));
     std::ranges::sort(breaks_);
@@ -100,8 +132,8 @@ class SlippingSprings {
   // ∫_0^π f(θ, K_t) dθ with K_t at the indentation high − depth · sin²(θ/2).
   double integral(const std::function<double(double, double)>& f) {
     const detail::Integral found =
-        detail::integrate([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
-                          tolerance_, absolute_);
+        integral_between([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
+                         tolerance_, absolute_);
     converged_ = converged_ && found.converged;
     return found.value;
   }
@@ -130,8 +162,8 @@ double depth_of_slip(const ContactLaw& law, const WholeContact& whole, double fo
     if (!(step > 1e-15 * depth)) return depth;
     const double next = depth + step;
     if (!(high - next > law.first_touch())) break;
-    const std::vector<double> breaks = detail::sweep_breaks(law, high - next, high - depth);
-    reached += detail::integrate(
+    const std::vector<double> breaks = breaks_between(law, high - next, high - depth);
+    reached += integral_between(
                    [&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
                    breaks, tolerance)
                    .value;
@@ -445,19 +477,21 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
+  // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
+  const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
   contact.initial_pressure = &high.contact_pressure;
   for (std::size_t k = 0; k < losses.size(); ++k) {
     JointLoss& loss = losses[k];
     double depth = loss.tangential_amplitude / limit, change = 0;
-    if (!(loss.tangential_amplitude < loss.knee && depth < high.indentation)) {
-      // The whole contact slides: the law between the loads only determines the elastic part. Its
-      // error is estimated by the change of the indentation on cells of half the size.
+    const double by_springs = std::exchange(loss.elastic_displacement, elastic_displacement);
+    loss.knee = limit * high.indentation;
+    if (loss.tangential_amplitude >= loss.knee) {
+      const double elastic = 4 * friction_coefficient * high.force * elastic_displacement;
       loss.tangential_force = friction_coefficient * high.force;
       loss.work_per_cycle = loss.slip_work =
-          4 * loss.tangential_force * (loss.tangential_amplitude - loss.elastic_displacement);
-      const double elastic = 4 * loss.tangential_force * loss.elastic_displacement;
-      const double continued = std::isnan(loss.work_error) ? 0 : loss.work_error;
-      loss.work_error = std::hypot(continued, elastic * (high.indentation / spring_depth - 1));
+          4 * loss.tangential_force * loss.tangential_amplitude - elastic;
+      // The springs of the law are those of contacts on the given cells.
+      loss.work_error = elastic * std::abs(by_springs / elastic_displacement - 1);
       loss.exponent = JointLoss::unknown;
       loss.regime = JointRegime::slides;
       set_ratios(loss);

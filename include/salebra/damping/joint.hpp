@@ -153,7 +153,8 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
 /// the error of surface_damping(); for a given force it also contains d ln W/d ln T times a third
 /// of the difference between this c and the c of the law. W is NaN where it is no larger than its
 /// error. Where the contact slides as a whole, W = 4μF(x − elastic_displacement) needs no further
-/// contacts; its error is that of the elastic part. (joint_loss() for a law whose loads are farther apart than c interpolates within the
+/// contacts: U = ∫F dδ is the elastic energy, here on cells of half the size, and work_error is the
+/// difference from the U of the law. (joint_loss() for a law whose loads are farther apart than c interpolates within the
 /// range of slip and states no error.)
 /// law      a law through a force curve of this surface and material that contains `point`
 /// throws   NotConverged if a contact did not converge; Interrupted; InvalidInput wherever
