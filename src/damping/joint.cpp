@@ -238,7 +238,7 @@ JointLoss loss_of_springs(const ContactLaw& law, double high, const TangentialOs
                 : loss.work_per_cycle < share_that_matters * x * loss.tangential_force
                     ? JointRegime::sticks
                     : JointRegime::partial_slip;
-  loss.converged = whole.converged && springs.converged();
+  loss.converged = springs.converged() && (whole.converged || !all_slip);
   set_ratios(loss);
   return loss;
 }
@@ -565,7 +565,9 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
   loss.max_force = law.force(mean + amplitude);
   loss.contact_time = contact_time(law, mean, amplitude);
   loss.regime = regime_of(law, motion, loss, one.limit);
-  if (loss.regime != JointRegime::slides) {
+  // A loss below this fraction of x T is round-off, as where nothing slips in phase.
+  constexpr double no_loss = 1e-12;
+  if (loss.regime != JointRegime::slides && one.work > no_loss * one.displacement * one.force) {
     // The exponent of the loss follows from a second motion that is 1 % smaller. If the force
     // differs by less than 1e-6, the contact slides within the accuracy of the steps, and the
     // exponent is unknown.

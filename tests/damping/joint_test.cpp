@@ -146,6 +146,8 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   // relaxation damping, up to the second-order error of the steps.
   const double critical = ratio * u_x / u_z;
   CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
+  CHECK(std::isnan(at(1.01 * critical, 0).exponent));
+  CHECK(at(1.01 * critical, 0).regime == JointRegime::sticks);
   CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);
   const EqualFrequency motion{u_z, u_x, pi / 2, 0};
   const double stuck = relaxation_damping(law, at_force(2), motion).work_per_cycle;
@@ -380,8 +382,8 @@ TEST_CASE("A curve of two thousand loads slides as a whole too", "[joint]") {
     const JointLoss loss = joint_loss(law, at_force(1), TangentialAmplitude{x}, friction);
     CHECK(loss.converged);
     // The exponential law that the loads are of; the lowest is 3e-4 of the load.
-    const JointLoss exact = joint_loss(ExponentialLaw(1, length, ratio), at_force(1),
-                                       TangentialAmplitude{x}, friction);
+    const JointLoss exact =
+        joint_loss(ExponentialLaw(1, length, ratio), at_force(1), TangentialAmplitude{x}, friction);
     CHECK(loss.work_per_cycle == Approx(exact.work_per_cycle).epsilon(1e-3));
     CHECK(loss.storage_stiffness == Approx(exact.storage_stiffness).epsilon(1e-3));
   }

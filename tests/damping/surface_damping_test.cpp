@@ -467,16 +467,16 @@ TEST_CASE("A joint of a surface that slides as a whole loses 4μF(x − 2μ'U/F)
     double energy = 0;
     for (int k = 1; k <= steps; ++k) {
       const double weight = k == steps ? 1 : k % 2 == 1 ? 4 : 2;
-      energy += weight / 3 * high.indentation / steps *
-                press(fine, stuck.contact_modulus, at_indentation(high.indentation * k / steps))
-                    .force;
+      energy +=
+          weight / 3 * high.indentation / steps *
+          press(fine, stuck.contact_modulus, at_indentation(high.indentation * k / steps)).force;
     }
     // Three times the knee, where the elastic part is about a tenth.
     const double x = 3 * friction * high.indentation;
     const double exact = 4 * friction * (high.force * x - 2 * friction * energy);
-    const JointLoss loss = surface_joint_loss(
-        surface, stuck, law, at_force(pressure * surface.grid.area()), {TangentialAmplitude{x}},
-        friction)[0];
+    const JointLoss loss =
+        surface_joint_loss(surface, stuck, law, at_force(pressure * surface.grid.area()),
+                           {TangentialAmplitude{x}}, friction)[0];
     INFO(seed << ' ' << loss.work_per_cycle / exact - 1 << ' ' << loss.work_error / exact);
     CHECK(loss.regime == JointRegime::slides);
     CHECK(loss.tangential_force == Approx(friction * high.force).epsilon(1e-9));
