@@ -2,7 +2,6 @@
 // Loss and stiffness of a contact in partial slip under a tangential oscillation.
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <iterator>
 #include <numbers>
@@ -356,20 +355,14 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       "tangential force; reduce it, or give a displacement");
 }
 
-// Regime under a normal oscillation. The springs with a depth below `stuck` never slip: they reach
-// their friction limit at no time of a harmonic motion (docs/theory_friction.md). limit: slope μ'.
+// Regime under a normal oscillation. A spring slips in both halves of the cycle if the displacement
+// exceeds its largest stretch limit, that at the largest indentation. limit: slope μ'.
 JointRegime regime_of(const ContactLaw& law, const JointMotion& motion, const JointLoss& loss,
                       double limit) {
-  const double reach = loss.tangential_amplitude / limit, amplitude = motion.normal_amplitude;
-  const bool lifts_off = loss.contact_time < 1;
-  const std::complex<double> turned = std::polar(reach, motion.phase);
-  const double stuck =
-      lifts_off
-          ? loss.indentation + amplitude - reach
-          : loss.indentation - (std::abs(turned - amplitude) + std::abs(turned + amplitude)) / 2;
-  const double carried = lifts_off ? loss.max_force : loss.mean_force;
-  if (!(law.force(stuck) >= share_that_matters * carried)) return JointRegime::slides;
-  if (lifts_off) return JointRegime::lifts_off;
+  const double amplitude = motion.normal_amplitude;
+  const double stuck = loss.indentation + amplitude - loss.tangential_amplitude / limit;
+  if (!(law.force(stuck) >= share_that_matters * loss.mean_force)) return JointRegime::slides;
+  if (loss.contact_time < 1) return JointRegime::lifts_off;
   const double without_slip =
       amplitude > 0 ? detail::damping_about(
                           law, loss.indentation,
