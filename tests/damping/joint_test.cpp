@@ -437,6 +437,21 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
           }
   }
   CHECK(lifted > 20);
+  // A vibration of a hundred decay lengths: the exponential law has a force at every indentation, but
+  // its springs open all the same. The bodies meet in a tenth of the steps, so the error is larger.
+  const double u_z = 3e-6;
+  for (const double x : {1e-9, 3e-8, 1e-6, 1e-5}) {
+    const JointLoss loss =
+        joint_loss(rough, at_force(1), {TangentialAmplitude{x}, u_z, 1.2, Hold::force}, friction);
+    const double highest = loss.indentation + u_z;
+    salebra_test::JointSprings springs(rough, lowest_spring(rough, highest), highest, friction, 800);
+    const auto loop = springs.cycle(loss.indentation, u_z, x, 1.2, 4000);
+    CAPTURE(x);
+    CHECK(loop.mean_force == Approx(1).epsilon(1e-3));
+    CHECK(loss.work_per_cycle == Approx(loop.work).epsilon(5e-3));
+    CHECK(loss.tangential_force == Approx(loop.force).epsilon(5e-3));
+    CHECK((loss.regime == JointRegime::slides) == (x > 1e-7));
+  }
   // A tangential force cannot act between bodies that are apart.
   CHECK_THROWS_WITH(
       joint_loss(sphere, at_force(1), {TangentialForce{0.01}, 1e-6, 0, Hold::force}, friction),
