@@ -444,7 +444,8 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
     const JointLoss loss =
         joint_loss(rough, at_force(1), {TangentialAmplitude{x}, u_z, 1.2, Hold::force}, friction);
     const double highest = loss.indentation + u_z;
-    salebra_test::JointSprings springs(rough, lowest_spring(rough, highest), highest, friction, 800);
+    salebra_test::JointSprings springs(rough, lowest_spring(rough, highest), highest, friction,
+                                       800);
     const auto loop = springs.cycle(loss.indentation, u_z, x, 1.2, 4000);
     CAPTURE(x);
     CHECK(loop.mean_force == Approx(1).epsilon(1e-3));
