@@ -93,10 +93,10 @@ constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
         Extensive{"loss_stiffness", stiffness, "tangential force in quadrature over displacement"});
   visit(&S::damping_constant, WhereKnown{quantity::damping_constant});
   visit(&S::elastic_displacement,
-        WhereKnown{"elastic_displacement", length,
-                   "part of the displacement that stretches a contact that slides as a whole"});
+        Quantity{"elastic_displacement", length,
+                 "part of the displacement that stretches a contact that slides as a whole"});
   visit(&S::knee,
-        WhereKnown{"knee", length, "displacement at which the contact begins to slide as a whole"});
+        Quantity{"knee", length, "displacement at which the contact begins to slide as a whole"});
   visit(&S::mean_force, WhereKnown{quantity::mean_force});
   visit(&S::max_force, WhereKnown{quantity::max_force});
   visit(&S::contact_time, WhereKnown{quantity::contact_time});
