@@ -21,7 +21,8 @@ struct JointArguments {
   LawOptions law;
   MaterialOptions material;
   std::vector<double> tangential_forces, tangential_amplitudes;
-  std::optional<double> normal_amplitude, phase, nominal_area, frequency;
+  std::optional<double> normal_amplitude, phase, nominal_area, frequency, angular_frequency;
+  std::string hold;
   int steps = 2000;
   std::optional<int> direct_steps;
   AssumptionOptions assumptions;
@@ -91,7 +92,13 @@ void check(const JointArguments& arguments) {
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
           "needs a normal oscillation; give --normal-amplitude");
   arguments.law.at.require_one("a joint takes one, with several tangential forces or amplitudes");
+  require_that(arguments.hold.empty() || arguments.normal_amplitude, "--hold",
+               "needs a normal oscillation; give --normal-amplitude");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");
+  if (arguments.angular_frequency)
+    require_positive(*arguments.angular_frequency, "--angular-frequency");
+  require_that(!arguments.frequency || !arguments.angular_frequency, "--angular-frequency",
+               "given together with --frequency; give one of them");
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
 }
 
@@ -104,7 +111,9 @@ void run(const JointArguments& arguments, Session& session) {
       .contact = arguments.law.problem(arguments.material, session, arguments.assumptions.hardness),
       .normal_amplitude = arguments.normal_amplitude.value_or(0),
       .phase = arguments.phase.value_or(0),
-      .angular_frequency = 2 * std::numbers::pi * arguments.frequency.value_or(0),
+      .hold = arguments.hold.empty() ? Hold::automatic : *parse_enum<Hold>(arguments.hold),
+      .angular_frequency = arguments.angular_frequency.value_or(2 * std::numbers::pi *
+                                                                arguments.frequency.value_or(0)),
       .parameters = arguments.assumptions.parameters(arguments.material),
       .steps = arguments.steps,
       .direct_steps = arguments.direct_steps};
@@ -123,6 +132,8 @@ void run(const JointArguments& arguments, Session& session) {
   if (direct) tables.push_back(table_of("direct", found.simulated, area));
   write_tables(session, "joint", answer, tables);
   for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
+  Json& regimes = answer["regime"] = Json::array();
+  for (const JointLoss& one : found.losses) regimes.push_back(name_of(one.regime));
   if (direct)
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
@@ -160,6 +171,9 @@ void add_joint_command(Program& program) {
                "amplitude u_z of the normal motion; without it the normal force is constant");
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,
                "phase of the tangential motion against the normal one; default 0");
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "which mean value the normal oscillation keeps; default auto: the force if it "
+                   "is given and the contact lifts off, otherwise the indentation");
   add_steps(command, arguments->steps, "steps per cycle with a normal oscillation; default 2000")
       ->range(16, 10000000);
   command
@@ -168,7 +182,9 @@ void add_joint_command(Program& program) {
           "with --surface: also simulate each motion cell by cell, with this many steps per cycle")
       ->range(16, 100000);
   add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
-               "frequency in Hz, to check for inertia");
+               "frequency in Hz, for the damping constant and to check for inertia");
+  add_quantity(command, "--angular-frequency", arguments->angular_frequency,
+               Dimension::angular_frequency, "angular frequency in rad/s, instead of --frequency");
   arguments->assumptions.add_to(command, false);
 }
 

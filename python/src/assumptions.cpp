@@ -13,6 +13,7 @@
 
 #include "bindings.hpp"
 #include "damping/max_motion.hpp"
+#include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"
@@ -189,31 +190,35 @@ void bind_joint(nb::module_& m) {
       [](const ContactLaw& law, double friction_coefficient,
          std::optional<double> tangential_amplitude, std::optional<double> tangential_force,
          std::optional<double> indentation, std::optional<double> force, double normal_amplitude,
-         double phase, int steps) {
+         double phase, const Choice<Hold>& hold, double angular_frequency, int steps) {
         require_one(tangential_amplitude.has_value(), "tangential_amplitude",
                     tangential_force.has_value(), "tangential_force");
         const OperatingPoint point = operating_point_of(indentation, force);
         const TangentialOscillation motion =
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
                              : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});
-        if (normal_amplitude == 0)
-          return unlocked([&] { return joint_loss(law, point, motion, friction_coefficient); });
-        const JointLoss loss = unlocked([&] {
-          return joint_loss(law, point, {motion, normal_amplitude, phase}, friction_coefficient,
-                            steps);
+        const Hold held = hold.value("hold");
+        JointLoss loss = unlocked([&] {
+          return normal_amplitude == 0
+                     ? joint_loss(law, point, motion, friction_coefficient)
+                     : joint_loss(law, point, {motion, normal_amplitude, phase, held},
+                                  friction_coefficient, steps);
         });
-        warn_of_held_indentation(law, loss.indentation,
-                                 mean_force_of_cycle(law, loss.indentation, normal_amplitude));
+        if (normal_amplitude != 0 && loss.hold == Hold::indentation)
+          warn_of_held_indentation(law, loss.indentation, loss.mean_force);
+        if (angular_frequency > 0) loss.set_damping_constant(angular_frequency);
         return loss;
       },
       nb::arg("law"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("tangential_amplitude") = nb::none(), nb::arg("tangential_force") = nb::none(),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
-      nb::arg("normal_amplitude") = 0.0, nb::arg("phase") = 0.0, nb::arg("steps") = 2000,
-      R"(Loss and stiffness in partial slip under a tangential oscillation, by displacement (m) or by force (N).
+      nb::arg("normal_amplitude") = 0.0, nb::arg("phase") = 0.0, nb::arg("hold") = "auto",
+      nb::arg("angular_frequency") = 0.0, nb::arg("steps") = 2000,
+      R"(Loss and stiffness in partial or gross slip under a tangential oscillation, by displacement (m) or by force (N).
 
 With a constant normal force the result is a quadrature. With a normal_amplitude u_z (m) the indentation oscillates, the tangential motion
-has a phase (rad) against it, and the springs of the law are followed step by step.
+has a phase (rad) against it, and the springs of the law are followed step by step, through lift-off too. hold: what the oscillation keeps,
+"indentation", "force" (the mean force), or "auto", the force if it is given and the contact lifts off. With an angular_frequency (rad/s) the result has a damping_constant.
 )");
 }
 

@@ -55,7 +55,8 @@ std::vector<JointLoss> of_part(std::vector<JointLoss> losses, double ratio) {
     for (const auto extensive :
          {&JointLoss::tangential_force, &JointLoss::work_per_cycle, &JointLoss::relaxation_work,
           &JointLoss::slip_work, &JointLoss::work_error, &JointLoss::secant_stiffness,
-          &JointLoss::storage_stiffness, &JointLoss::loss_stiffness})
+          &JointLoss::storage_stiffness, &JointLoss::loss_stiffness, &JointLoss::mean_force,
+          &JointLoss::max_force})
       one.*extensive *= ratio;
   return losses;
 }
@@ -79,10 +80,11 @@ std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactL
     return !context.on_progress || context.on_progress(report);
   };
   for (const TangentialOscillation& motion : problem.motions)
-    losses.push_back(problem.normal_amplitude != 0
-                         ? joint_loss(law, point, {motion, problem.normal_amplitude, problem.phase},
-                                      friction, problem.steps, of_all)
-                         : joint_loss(law, point, motion, friction));
+    losses.push_back(problem.normal_amplitude != 0 ? joint_loss(law, point,
+                                                                {motion, problem.normal_amplitude,
+                                                                 problem.phase, problem.hold},
+                                                                friction, problem.steps, of_all)
+                                                   : joint_loss(law, point, motion, friction));
   return losses;
 }
 
@@ -156,9 +158,11 @@ JointSolution solve(JointProblem problem, const Context& context) {
   const double indentation = solution.losses.front().indentation;
   solution.state = state_of(law, indentation);
   if (oscillates) {
+    const JointLoss& any = solution.losses.front();
     DampingResult mean;
+    mean.hold = any.hold;
     mean.force = solution.state.force;
-    mean.mean_force = mean_force_of_cycle(law, indentation, problem.normal_amplitude);
+    mean.mean_force = any.mean_force;
     if (const auto warning = detail::warning_of_held_indentation({&mean, 1}))
       solution.contact.warnings.push_back(*warning);
   }
@@ -167,6 +171,16 @@ JointSolution solve(JointProblem problem, const Context& context) {
     solution.simulated = of_part(
         simulate(problem, *solution.contact.surface, material, indentation, context), ratio);
   }
+  if (problem.angular_frequency > 0)
+    for (std::vector<JointLoss>* losses : {&solution.losses, &solution.simulated})
+      for (JointLoss& one : *losses) one.set_damping_constant(problem.angular_frequency);
+  if (const auto sliding =
+          std::ranges::count(solution.losses, JointRegime::slides, &JointLoss::regime);
+      sliding > 0)
+    solution.warnings.push_back(fmt::format(
+        "the contact slides as a whole at {} of {} motions: Coulomb friction with T = μF, not a "
+        "damper",
+        sliding, solution.losses.size()));
 
   const JointLoss& largest =
       *std::ranges::max_element(solution.losses, {}, &JointLoss::tangential_amplitude);
@@ -178,6 +192,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
     judged.normal_amplitude = 1e-6 * solution.state.force / solution.state.normal_stiffness;
   solution.assumptions =
       solution.contact.assumptions_beside_slip(indentation, judged, problem.parameters);
+  // Each motion has a regime of its own.
+  solution.assumptions.regime = Regime::unknown;
   return solution;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -11,11 +12,13 @@
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/tangential_contact.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/numerics/quadrature.hpp"
 #include "base/stop_check.hpp"
+#include "continued_law.hpp"
 #include "joint_loop.hpp"
 #include "max_motion.hpp"
 #include "surface/refine.hpp"
@@ -40,15 +43,75 @@ void check_below_sliding(double force, double limit, const char* where) {
               ", at which the contact slides" + where + "; beyond it sliding is steady");
 }
 
-[[noreturn]] void refuse_deep_slip(const ContactLaw& law) {
-  if (!std::isfinite(law.lowest_indentation()))
-    throw InvalidInput("friction_coefficient",
-                       "the part that still sticks is smaller than the rounding of the tangential "
-                       "force; raise the friction or reduce the motion");
-  throw InvalidInput("friction_coefficient",
-                     "slip reaches indentations below the range of the law; raise the friction, "
-                     "reduce the motion, or give a curve that begins at lower forces");
+// Smallest K_t, as a fraction of that of the whole contact, for which springs are counted.
+constexpr double negligible = 1e-17;
+// A spring slips or sticks as far as its share of the normal force, or of the loss, matters: 5 %.
+constexpr double share_that_matters = 0.05;
+
+// sweep_breaks() between two depths, and the integral of f over ranges of points that the quadrature
+// takes at once. A measured curve may have thousands of loads, at each of which K_t has a kink.
+constexpr std::size_t most_breaks = 400;
+
+std::vector<double> breaks_between(const ContactLaw& law, double low, double high) {
+  std::vector<double> ends{low}, breaks;
+  std::size_t count = 0;
+  for (const double point : law.break_points())
+    if (point > low && point < high && ++count % most_breaks == 0) ends.push_back(point);
+  ends.push_back(high);
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    std::ranges::copy(detail::sweep_breaks(law, ends[i - 1], ends[i]), std::back_inserter(breaks));
+  return breaks;
 }
+
+detail::Integral integral_between(const std::function<double(double)>& f,
+                                  const std::vector<double>& breaks, double tolerance,
+                                  double absolute = 0) {
+  if (breaks.size() <= most_breaks + 3) return detail::integrate(f, breaks, tolerance, absolute);
+  detail::Integral sum;
+  for (std::size_t first = 0; first + 1 < breaks.size(); first += most_breaks) {
+    const std::size_t count = std::min(most_breaks + 1, breaks.size() - first);
+    const detail::Integral part =
+        detail::integrate(f, std::span(breaks).subspan(first, count), tolerance, absolute);
+    sum.value += part.value, sum.error += part.error;
+  }
+  sum.converged = sum.error <= std::max(absolute, tolerance * std::abs(sum.value));
+  return sum;
+}
+
+// All springs of a contact at one indentation, and the slope μ' of their friction limit.
+struct WholeContact {
+  WholeContact(const ContactLaw& law, double indentation, double friction_coefficient,
+               double tolerance)
+      : high(indentation) {
+    const double stiffness = law.tangential_stiffness(high), force = law.force(high);
+    require(stiffness > 0 && force > 0, "indentation", high, "m is an indentation without contact");
+    low = law.first_touch();
+    if (!std::isfinite(low))
+      for (double depth = force / law.normal_stiffness(high);; depth *= 2)
+        if (low = high - depth; !(law.tangential_stiffness(low) > negligible * stiffness)) break;
+    const std::vector<double> breaks = breaks_between(law, low, high);
+    const auto moment = [&](auto&& weight) {
+      const detail::Integral found = integral_between(
+          [&](double at) { return law.tangential_stiffness(at) * weight(high - at); }, breaks,
+          tolerance);
+      converged = converged && found.converged;
+      return found.value;
+    };
+    const double held = moment([](double) { return 1; });
+    // A law with K_t = ρK has the exact ratio; the quadrature would only add its round-off.
+    constexpr double same = 1e-6;
+    ratio = law.stiffness_ratio(high);
+    if (std::abs(held / (ratio * force) - 1) > same) ratio = held / force;
+    limit = friction_coefficient / ratio;
+    elastic_displacement = 2 * limit * moment([](double depth) { return depth; }) / held;
+    if (std::isfinite(law.first_touch())) knee = limit * (high - low);
+  }
+
+  double low, high;  // depths of the lowest and the highest spring, m
+  double ratio = 0, limit = 0;
+  double elastic_displacement = 0, knee = std::numeric_limits<double>::infinity();
+  bool converged = true;
+};
 
 // Quadratures over the springs that slip. Their depths reach from the indentation `high` down to
 // high − depth, in the parametrisation high − depth · sin²(θ/2).
@@ -56,8 +119,7 @@ class SlippingSprings {
  public:
   SlippingSprings(const ContactLaw& law, double high, double depth, double tolerance)
       : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
-    if (!(high - depth >= law.lowest_indentation())) refuse_deep_slip(law);
-    for (const double spring_depth : detail::sweep_breaks(law, high - depth, high))
+    for (const double spring_depth : breaks_between(law, high - depth, high))
       breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - spring_depth, 0.0)),
                                        std::sqrt(std::max(spring_depth - (high - depth), 0.0))));
     std::ranges::sort(breaks_);
@@ -69,8 +131,8 @@ class SlippingSprings {
   // ∫_0^π f(θ, K_t) dθ with K_t at the indentation high − depth · sin²(θ/2).
   double integral(const std::function<double(double, double)>& f) {
     const detail::Integral found =
-        detail::integrate([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
-                          tolerance_, absolute_);
+        integral_between([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
+                         tolerance_, absolute_);
     converged_ = converged_ && found.converged;
     return found.value;
   }
@@ -86,13 +148,11 @@ class SlippingSprings {
   bool converged_ = true;
 };
 
-// The depth of slip c at which the tangential force reaches T: (μ/g) ∫_0^c K_t(δ − u) du = T, with
-// g = K_t/K at the indentation δ. high: δ, m; force: T, N.
-double depth_of_slip(const ContactLaw& law, double high, double force, double friction_coefficient,
-                     double tolerance) {
-  const double target = law.stiffness_ratio(high) * force / friction_coefficient;
+// The depth of slip c at which the tangential force reaches T: μ' ∫_0^c K_t(δ − u) du = T.
+double depth_of_slip(const ContactLaw& law, const WholeContact& whole, double force,
+                     double friction_coefficient, double tolerance) {
+  const double high = whole.high, target = whole.ratio * force / friction_coefficient;
   const double stiffness = law.tangential_stiffness(high);
-  require(stiffness > 0, "indentation", high, "m is an indentation without contact");
   // The integral is a concave function of c. Newton's method from c = 0 therefore approaches the
   // solution from below and never passes it.
   double depth = 0, reached = 0, end = stiffness;
@@ -100,17 +160,19 @@ double depth_of_slip(const ContactLaw& law, double high, double force, double fr
     const double step = (target - reached) / end;
     if (!(step > 1e-15 * depth)) return depth;
     const double next = depth + step;
-    if (!(high - next >= law.lowest_indentation())) break;
-    const std::vector<double> breaks = detail::sweep_breaks(law, high - next, high - depth);
-    reached += detail::integrate(
+    if (!(high - next > law.first_touch())) break;
+    const std::vector<double> breaks = breaks_between(law, high - next, high - depth);
+    reached += integral_between(
                    [&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
                    breaks, tolerance)
                    .value;
     depth = next;
     end = law.tangential_stiffness(high - depth);
   }
-  check_below_sliding(force, friction_coefficient * law.force(high), "");
-  refuse_deep_slip(law);
+  throw InvalidInput("tangential_force",
+                     format_quantity(force, Dimension::force) +
+                         " leaves a part that sticks smaller than the rounding of the tangential "
+                         "force; reduce the force, or give a displacement");
 }
 
 void set_ratios(JointLoss& loss) {
@@ -120,11 +182,72 @@ void set_ratios(JointLoss& loss) {
   loss.loss_stiffness = loss.work_per_cycle / (pi * x * x);
 }
 
+// The loss at the indentation `high` under a constant normal force, for a law as it is.
+JointLoss loss_of_springs(const ContactLaw& law, double high, const TangentialOscillation& motion,
+                          double friction_coefficient, double tolerance) {
+  const WholeContact whole(law, high, friction_coefficient, tolerance);
+  const double sliding = friction_coefficient * law.force(high);
+  double depth = 0;
+  if (const auto* by_force = std::get_if<TangentialForce>(&motion)) {
+    check_below_sliding(by_force->amplitude, sliding, "");
+    depth = depth_of_slip(law, whole, by_force->amplitude, friction_coefficient, tolerance);
+  } else {
+    depth = std::get<TangentialAmplitude>(motion).amplitude / whole.limit;
+  }
+  // Where the motion reaches deeper than the lowest spring, all springs slip.
+  const bool all_slip = depth >= high - whole.low;
+  SlippingSprings springs(law, high, all_slip ? high - whole.low : depth, tolerance);
+
+  JointLoss loss;
+  loss.indentation = high;
+  loss.elastic_displacement = whole.elastic_displacement;
+  loss.knee = whole.knee;
+  const double x = loss.tangential_amplitude = whole.limit * depth;
+  // If all springs slip, θ is not the phase of the motion: a spring at the depth u begins to slip at
+  // the phase whose squared half sine is u/depth.
+  const double share = all_slip ? (high - whole.low) / depth : 1;
+  loss.storage_stiffness = 2 / pi * springs.integral([&](double theta, double k) {
+    if (!all_slip) return k * std::pow(std::sin(theta), 2);
+    const double part = share * std::pow(std::sin(0.5 * theta), 2);
+    return k * share * std::sin(theta) * 2 * std::sqrt(part * (1 - part));
+  });
+  // Subtracts K_t at the depth of slip from the integrand, because a constant K_t has no loss.
+  const double deepest = springs.stiffness_at(pi);
+  const auto beyond = [&] {
+    return x / 2 * springs.integral([&](double theta, double k) {
+      return (k - deepest) * std::sin(theta);
+    });
+  };
+  if (all_slip) {
+    loss.tangential_force = sliding;
+    loss.work_per_cycle = 4 * sliding * (x - whole.elastic_displacement);
+  } else {
+    loss.tangential_force =
+        x / 2 * springs.integral([](double theta, double k) { return k * std::sin(theta); });
+    springs.allow_cancelling();
+    loss.work_per_cycle = x * x * springs.integral([&](double theta, double k) {
+      return (k - deepest) * std::sin(2 * theta);
+    });
+  }
+  loss.slip_work = loss.work_per_cycle;
+  loss.relaxation_work = 0;
+  const bool slides = !(law.force(high - depth) >= share_that_matters * law.force(high));
+  if (!slides) loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond() / deepest;
+  loss.regime = slides ? JointRegime::slides
+                : loss.work_per_cycle < share_that_matters * x * loss.tangential_force
+                    ? JointRegime::sticks
+                    : JointRegime::partial_slip;
+  loss.converged = springs.converged() && (whole.converged || !all_slip);
+  set_ratios(loss);
+  return loss;
+}
+
 // Steady state of a joint under an oscillating normal force.
 struct Followed {
   // Half the range of the tangential force and of the displacement.
   double force = 0, displacement = 0;
   double work = 0, slip_work = 0, storage_stiffness = 0;
+  double limit = 0;  // slope μ' of the friction limit
   detail::JointLoop loop = {};
 };
 
@@ -185,12 +308,14 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
   // With a given force the range of the displacement is unknown, so all springs may reach their
   // stretch limit.
   const double range = by_force ? std::numeric_limits<double>::infinity() : 2 * amplitude;
-  TangentialContact contact(
-      law, lowest, highest,
-      {.friction_coefficient = friction_coefficient, .tangential_range = range});
+  const double ratio = WholeContact(law, highest, friction_coefficient, 1e-9).ratio;
+  TangentialContact contact(law, lowest, highest,
+                            {.friction_coefficient = friction_coefficient,
+                             .tangential_range = range,
+                             .stiffness_ratio = ratio});
   contact.start(spring_depth[0], first);
   std::vector<double> x(spring_depth.size()), force(spring_depth.size());
-  Followed result;
+  Followed result{.limit = friction_coefficient / ratio};
   constexpr int max_periods = 200;
   for (int period = 0; period < max_periods; ++period) {
     const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
@@ -230,6 +355,25 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       "tangential force; reduce it, or give a displacement");
 }
 
+// Regime under a normal oscillation. A spring slips in both halves of the cycle if the displacement
+// exceeds its largest stretch limit, that at the largest indentation. limit: slope μ'.
+JointRegime regime_of(const ContactLaw& law, const JointMotion& motion, const JointLoss& loss,
+                      double limit) {
+  const double amplitude = motion.normal_amplitude;
+  const double stuck = loss.indentation + amplitude - loss.tangential_amplitude / limit;
+  if (!(law.force(stuck) >= share_that_matters * loss.mean_force)) return JointRegime::slides;
+  if (loss.contact_time < 1) return JointRegime::lifts_off;
+  const double without_slip =
+      amplitude > 0 ? detail::damping_about(
+                          law, loss.indentation,
+                          EqualFrequency{amplitude, loss.tangential_amplitude, motion.phase}, 1e-6)
+                          .work_per_cycle
+                    : 0;
+  const double matters = share_that_matters * loss.tangential_amplitude * loss.tangential_force;
+  return std::abs(loss.work_per_cycle - without_slip) < matters ? JointRegime::sticks
+                                                                : JointRegime::partial_slip;
+}
+
 // Returns the state of a contact; throws if its solve was interrupted or did not converge.
 NormalContactState solved(NormalContactState state) {
   if (state.termination == Termination::interrupted) throw Interrupted("joint: interrupted");
@@ -255,6 +399,7 @@ SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, cons
                              const Material& material, const Progress& on_progress) {
   const ForceCurve curve = stuck_at(pressure, surface, material, on_progress);
   SurfaceDampingOptions options;
+  options.hold = Hold::indentation;
   options.on_progress = on_progress;
   SurfaceDamping damping = surface_damping(surface, material, motion, curve, options).front();
   if (!damping.converged) throw NotConverged("joint: a contact of the surface did not converge");
@@ -282,39 +427,17 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   check(motion, friction_coefficient);
   const double high = indentation_of(law, point);
   detail::require_possible(law, high, 0, [&](double) { return high; });
-  // Stretch limit of a spring divided by its depth.
-  const double limit = friction_coefficient / law.stiffness_ratio(high);
-  const auto* by_force = std::get_if<TangentialForce>(&motion);
-  const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
-                                                friction_coefficient, options.tolerance)
-                                : std::get<TangentialAmplitude>(motion).amplitude / limit;
-  SlippingSprings springs(law, high, depth, options.tolerance);
-
-  JointLoss loss;
-  loss.indentation = high;
-  const double x = loss.tangential_amplitude = limit * depth;
-  loss.tangential_force =
-      x / 2 * springs.integral([](double theta, double k) { return k * std::sin(theta); });
-  loss.storage_stiffness = 2 / pi * springs.integral([](double theta, double k) {
-    return k * std::pow(std::sin(theta), 2);
-  });
-  // Subtracts K_t at the depth of slip from the integrand, because a constant K_t has no loss.
-  const double deepest = springs.stiffness_at(pi);
-  // If the springs that still stick have less than this fraction of K_t, the tangential force
-  // equals μF to round-off, and the loss grows with the displacement at constant force.
-  constexpr double nothing_left = 1e-9;
-  springs.allow_cancelling();
-  loss.slip_work = loss.work_per_cycle = x * x * springs.integral([&](double theta, double k) {
-    return (k - deepest) * std::sin(2 * theta);
-  });
-  loss.relaxation_work = 0;
-  const double beyond = x / 2 * springs.integral([&](double theta, double k) {
-    return (k - deepest) * std::sin(theta);
-  });
-  if (deepest > nothing_left * springs.stiffness_at(0))
-    loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond / deepest;
-  loss.converged = springs.converged();
-  set_ratios(loss);
+  JointLoss loss = loss_of_springs(law, high, motion, friction_coefficient, options.tolerance);
+  const double depth = (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
+  if (detail::reaches_below_table(law, high - depth)) {
+    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+    loss.work_error =
+        loss.work_per_cycle *
+        detail::change_below_table(
+            law, loss.work_per_cycle,
+            loss_of_springs(other, high, motion, friction_coefficient, options.tolerance)
+                .work_per_cycle);
+  }
   return loss;
 }
 
@@ -347,10 +470,26 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
+  // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
+  const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
   contact.initial_pressure = &high.contact_pressure;
   for (std::size_t k = 0; k < losses.size(); ++k) {
     JointLoss& loss = losses[k];
     double depth = loss.tangential_amplitude / limit, change = 0;
+    const double by_springs = std::exchange(loss.elastic_displacement, elastic_displacement);
+    loss.knee = limit * high.indentation;
+    if (loss.tangential_amplitude >= loss.knee) {
+      const double elastic = 4 * friction_coefficient * high.force * elastic_displacement;
+      loss.tangential_force = friction_coefficient * high.force;
+      loss.work_per_cycle = loss.slip_work =
+          4 * loss.tangential_force * loss.tangential_amplitude - elastic;
+      // The springs of the law are those of contacts on the given cells.
+      loss.work_error = elastic * std::abs(by_springs / elastic_displacement - 1);
+      loss.exponent = JointLoss::unknown;
+      loss.regime = JointRegime::slides;
+      set_ratios(loss);
+      continue;
+    }
     if (std::holds_alternative<TangentialForce>(motions[k])) {
       const double force = high.force - loss.tangential_force / friction_coefficient;
       check_below_sliding(loss.tangential_force, friction_coefficient * high.force, "");
@@ -384,29 +523,58 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
           "normal_amplitude", motion.normal_amplitude, "must be >= 0");
   require(std::isfinite(motion.phase), "phase", motion.phase, "must be finite");
   require(steps >= 16, "steps", steps, "must be >= 16");
-  const double mean = indentation_of(law, point);
-  detail::require_possible(law, mean, motion.normal_amplitude, [&](double) { return mean; });
-  const auto at = [&](double factor) {
+  const double rest = indentation_of(law, point), amplitude = motion.normal_amplitude;
+  const Hold hold = hold_of(law, point, amplitude, motion.hold);
+  const double force = point.load_given() ? point.value : law.force(rest);
+  const auto middle_of = [&](const ContactLaw& one, double normal_amplitude) {
+    return hold == Hold::force ? indentation_at_mean_force(one, force, normal_amplitude) : rest;
+  };
+  detail::require_possible(
+      law, rest, amplitude, [&](double one) { return middle_of(law, one); }, hold);
+  const double mean = middle_of(law, amplitude);
+  const double mean_force = hold == Hold::force ? force : mean_force_of_cycle(law, mean, amplitude);
+  if (const auto* by_force = std::get_if<TangentialForce>(&motion.tangential))
+    require(contact_time(law, mean, amplitude) == 1, "tangential_force", by_force->amplitude,
+            "N cannot be kept while the normal oscillation lifts the bodies apart; give a "
+            "displacement, or reduce the normal amplitude");
+  const auto at = [&](const ContactLaw& one, double middle, double factor) {
     JointMotion scaled = motion;
-    std::visit([&](auto& one) { one.amplitude *= factor; }, scaled.tangential);
-    const JointPath path = path_of(mean, scaled, steps);
-    return follow(law, path, friction_coefficient, on_progress,
+    std::visit([&](auto& part) { part.amplitude *= factor; }, scaled.tangential);
+    const JointPath path = path_of(middle, scaled, steps);
+    return follow(one, path, friction_coefficient, on_progress,
                   path.by_force ? 0 : path.target.front());
   };
-  const Followed one = at(1), less = at(0.99);
+  const Followed one = at(law, mean, 1);
   JointLoss loss;
   loss.indentation = mean;
+  loss.hold = hold;
   loss.tangential_force = one.force;
   loss.tangential_amplitude = one.displacement;
   loss.work_per_cycle = one.work;
   loss.slip_work = one.slip_work;
   loss.relaxation_work = one.work - one.slip_work;
   loss.storage_stiffness = one.storage_stiffness;
-  // The exponent of the loss follows from a second motion that is 1 % smaller. If the force differs
-  // by less than 1e-6, the contact slides within the accuracy of the steps, and the exponent is
-  // unknown.
-  if (const double change = std::log(one.force / less.force); change > 1e-6)
-    loss.exponent = std::log(one.work / less.work) / change;
+  loss.mean_force = mean_force;
+  loss.max_force = law.force(mean + amplitude);
+  loss.contact_time = contact_time(law, mean, amplitude);
+  loss.regime = regime_of(law, motion, loss, one.limit);
+  // A loss below this fraction of x T is round-off, as where nothing slips in phase.
+  constexpr double no_loss = 1e-12;
+  if (loss.regime != JointRegime::slides && one.work > no_loss * one.displacement * one.force) {
+    // The exponent of the loss follows from a second motion that is 1 % smaller. If the force
+    // differs by less than 1e-6, the contact slides within the accuracy of the steps, and the
+    // exponent is unknown.
+    const Followed less = at(law, mean, 0.99);
+    if (const double change = std::log(one.force / less.force); change > 1e-6)
+      loss.exponent = std::log(one.work / less.work) / change;
+  }
+  const double deepest = mean - amplitude - loss.tangential_amplitude / one.limit;
+  if (detail::reaches_below_table(law, deepest)) {
+    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
+    loss.work_error = loss.work_per_cycle *
+                      detail::change_below_table(law, loss.work_per_cycle,
+                                                 at(other, middle_of(other, amplitude), 1).work);
+  }
   loss.converged = true;
   set_ratios(loss);
   return loss;

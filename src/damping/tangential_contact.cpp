@@ -316,7 +316,9 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
                << " m; reduce the motion, or give a curve that covers it";
     require(false, "indentation", highest, constraint.str());
   }
-  const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));
+  const double ratio = std::isnan(options.stiffness_ratio)
+                           ? law.stiffness_ratio(0.5 * (lowest + highest))
+                           : options.stiffness_ratio;
   double low = lowest;
   if (std::isfinite(options.friction_coefficient)) {
     require(

@@ -451,6 +451,40 @@ TEST_CASE("The loss of a joint of a surface has an error that holds, at small fo
   CHECK(stated[3] < 0.4);
 }
 
+TEST_CASE("A joint of a surface that slides as a whole loses 4μF(x − 2μ'U/F), within its error") {
+  // U = ∫F dδ by Simpson's rule over solved contacts on cells of a quarter of the size. With ν = 0,
+  // K_t is K.
+  const Material stuck = Material::of_contact_modulus(1e9, 0);
+  constexpr double friction = 0.3;
+  for (const int seed : {0, 1, 2}) {
+    const Surface surface = other_surface(seed), fine = refined(surface, 4);
+    const double pressure = std::array{0.004, 0.02, 0.08}[std::size_t(seed % 3)] * 0.1 * 1e9;
+    std::vector<double> pressures;
+    for (int k = -7; k <= 5; ++k) pressures.push_back(pressure * std::pow(1.6, k));
+    const TabulatedLaw law(sweep_pressures(surface, stuck, pressures), stuck.modulus_ratio());
+    const NormalContactState high = press(fine, stuck.contact_modulus, at_pressure(pressure));
+    constexpr int steps = 12;
+    double energy = 0;
+    for (int k = 1; k <= steps; ++k) {
+      const double weight = k == steps ? 1 : k % 2 == 1 ? 4 : 2;
+      energy +=
+          weight / 3 * high.indentation / steps *
+          press(fine, stuck.contact_modulus, at_indentation(high.indentation * k / steps)).force;
+    }
+    // Three times the knee, where the elastic part is about a tenth.
+    const double x = 3 * friction * high.indentation;
+    const double exact = 4 * friction * (high.force * x - 2 * friction * energy);
+    const JointLoss loss =
+        surface_joint_loss(surface, stuck, law, at_force(pressure * surface.grid.area()),
+                           {TangentialAmplitude{x}}, friction)[0];
+    INFO(seed << ' ' << loss.work_per_cycle / exact - 1 << ' ' << loss.work_error / exact);
+    CHECK(loss.regime == JointRegime::slides);
+    CHECK(loss.tangential_force == Approx(friction * high.force).epsilon(1e-9));
+    CHECK(std::abs(loss.work_per_cycle - exact) < loss.work_error);
+    CHECK(loss.work_error < 0.02 * exact);
+  }
+}
+
 TEST_CASE("Steady sliding of a surface has errors that hold, and so do its dampings") {
   // With ν = 0, K_t is K. Each of two velocities has ten numbers.
   const Material stuck = Material::of_contact_modulus(1e9, 0);

@@ -348,6 +348,18 @@ def test_a_sphere_in_partial_slip_is_mindlins() -> None:
     assert again.tangential_amplitude == pytest.approx(219.16662e-9, rel=1e-8)
     with pytest.raises(salebra.InvalidInput, match="give one of them"):
         salebra.joint_loss(law, friction_coefficient=0.3, force=10.0)
+    # All of it slides: W = 4μF(x − 0.8 μ'δ), and a damping constant W/(πωx²) where a frequency is given.
+    slid = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=5e-6, force=10.0, angular_frequency=1e3)
+    assert slid.regime == "slides"
+    assert slid.elastic_displacement == pytest.approx(0.8 * slid.knee, rel=1e-9)
+    assert slid.work_per_cycle == pytest.approx(12 * (5e-6 - slid.elastic_displacement), rel=1e-9)
+    assert slid.damping_constant == pytest.approx(slid.work_per_cycle / (math.pi * 1e3 * 25e-12), rel=1e-12)
+    assert math.isnan(slid.exponent)
+    # The contact lifts off, so its mean force is held.
+    lifted = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=1e-8, force=10.0, normal_amplitude=5e-6, phase=1.5)
+    assert (lifted.regime, lifted.hold) == ("lifts off", "force")
+    assert lifted.mean_force == pytest.approx(10.0, rel=1e-9)
+    assert lifted.contact_time < 0.5 < 20 < lifted.max_force
 
 
 def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None:

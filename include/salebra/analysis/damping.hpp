@@ -193,7 +193,8 @@ struct JointProblem {
   std::vector<TangentialOscillation> motions = {};
   double normal_amplitude = 0;   ///< u_z of δ + u_z cos ωt, m; 0: the normal force is constant
   double phase = 0;              ///< phase φ0 of the tangential against the normal motion, rad
-  double angular_frequency = 0;  ///< to check inertia, rad/s; 0: not known
+  Hold hold = Hold::automatic;   ///< mean value that the normal oscillation keeps: hold_of()
+  double angular_frequency = 0;  ///< for γ and to check inertia, rad/s; 0: not known
   ContactParameters parameters = {};  ///< must contain a coefficient of friction
   int steps = 2000;                   ///< steps per cycle with a normal oscillation; >= 16
   /// Nominal area of the joint, m². The law of a curve or a surface is scaled from its own nominal

@@ -98,14 +98,11 @@ struct ElementForces {
 /// mapping of Coulomb friction along its own stretch [Simo and Hughes (1998)]; at |F_t| = μF all
 /// springs slip, and the tangential force cannot grow further. TangentialContact is the limit of
 /// infinitely many springs, for one tangential direction and without a step error. If the law has
-/// its own K_t, springs slip at different stretches in the two classes: TangentialContact and
-/// joint_loss() limit the stretch with K_t/K at one indentation, a ContactElement with the mean
-/// ratio G/F of the whole contact, G = ∫K_t dζ, so that it carries μF in gross sliding. The two
-/// classes also differ where K_t falls with δ. Example: with 1 % noise in F and K_t of 60 loads on
-/// a sphere, the loss of either class differs from that of the exact sphere by 17 % (standard
-/// deviation); the losses of the two classes differ from each other by up to a quarter, with a
-/// standard deviation of less than an eighth. A copy of an element saves its state; copies share
-/// their springs.
+/// its own K_t, a ContactElement and joint_loss() limit the stretch of the springs with the mean
+/// ratio G/F of the whole contact, G = ∫K_t dζ, so that it carries μF in gross sliding; a
+/// TangentialContact limits it with K_t/K at one indentation unless it is given a ratio. The classes
+/// also differ where K_t falls with δ. A copy of an
+/// element saves its state; copies share their springs.
 /// cost  a step takes some nanoseconds for each spring that slips, touches or separates, and one
 ///       nanosecond for each of the remaining springs; 32 bytes of memory per spring
 class ContactElement {

@@ -21,6 +21,9 @@ struct TangentialContactOptions {
   /// limits the depth that slip can reach. It must be > 0 if the friction coefficient is finite and
   /// > 0; otherwise it is not used.
   double tangential_range = 0;
+  /// K_t/K of the springs, which sets their friction limit; NaN: that of the law in the middle of
+  /// the range of δ.
+  double stiffness_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Tangential state, along any path, of any contact whose contact set at a smaller indentation lies
