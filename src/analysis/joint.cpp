@@ -174,8 +174,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (problem.angular_frequency > 0)
     for (std::vector<JointLoss>* losses : {&solution.losses, &solution.simulated})
       for (JointLoss& one : *losses) one.set_damping_constant(problem.angular_frequency);
-  if (const auto sliding =
-          std::ranges::count(solution.losses, JointRegime::slides, &JointLoss::regime);
+  if (const auto sliding = std::ranges::count(solution.losses, Regime::sliding, &JointLoss::regime);
       sliding > 0)
     solution.warnings.push_back(fmt::format(
         "the contact slides as a whole at {} of {} motions: Coulomb friction with T = μF, not a "

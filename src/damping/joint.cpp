@@ -18,11 +18,11 @@
 
 #include "base/numerics/quadrature.hpp"
 #include "base/stop_check.hpp"
-#include "continued_law.hpp"
 #include "joint_loop.hpp"
 #include "max_motion.hpp"
 #include "surface/refine.hpp"
 #include "sweep_breaks.hpp"
+#include "table_error.hpp"
 
 namespace salebra {
 namespace {
@@ -233,10 +233,10 @@ JointLoss loss_of_springs(const ContactLaw& law, double high, const TangentialOs
   loss.relaxation_work = 0;
   const bool slides = !(law.force(high - depth) >= share_that_matters * law.force(high));
   if (!slides) loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond() / deepest;
-  loss.regime = slides ? JointRegime::slides
+  loss.regime = slides ? Regime::sliding
                 : loss.work_per_cycle < share_that_matters * x * loss.tangential_force
-                    ? JointRegime::sticks
-                    : JointRegime::partial_slip;
+                    ? Regime::no_slip
+                    : Regime::partial_slip;
   loss.converged = springs.converged() && (whole.converged || !all_slip);
   set_ratios(loss);
   return loss;
@@ -357,12 +357,12 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
 
 // Regime under a normal oscillation. A spring slips in both halves of the cycle if the displacement
 // exceeds its largest stretch limit, that at the largest indentation. limit: slope μ'.
-JointRegime regime_of(const ContactLaw& law, const JointMotion& motion, const JointLoss& loss,
-                      double limit) {
+Regime regime_of(const ContactLaw& law, const JointMotion& motion, const JointLoss& loss,
+                 double limit) {
   const double amplitude = motion.normal_amplitude;
   const double stuck = loss.indentation + amplitude - loss.tangential_amplitude / limit;
-  if (!(law.force(stuck) >= share_that_matters * loss.mean_force)) return JointRegime::slides;
-  if (loss.contact_time < 1) return JointRegime::lifts_off;
+  if (!(law.force(stuck) >= share_that_matters * loss.mean_force)) return Regime::sliding;
+  if (loss.contact_time < 1) return Regime::lifts_off;
   const double without_slip =
       amplitude > 0 ? detail::damping_about(
                           law, loss.indentation,
@@ -370,8 +370,8 @@ JointRegime regime_of(const ContactLaw& law, const JointMotion& motion, const Jo
                           .work_per_cycle
                     : 0;
   const double matters = share_that_matters * loss.tangential_amplitude * loss.tangential_force;
-  return std::abs(loss.work_per_cycle - without_slip) < matters ? JointRegime::sticks
-                                                                : JointRegime::partial_slip;
+  return std::abs(loss.work_per_cycle - without_slip) < matters ? Regime::no_slip
+                                                                : Regime::partial_slip;
 }
 
 // Returns the state of a contact; throws if its solve was interrupted or did not converge.
@@ -421,6 +421,23 @@ struct Swing {
 
 }  // namespace
 
+namespace {
+
+// Sets the error of a loss that comes from a table, and removes a loss that is no larger. lowest:
+// lowest depth of the springs that slip.
+void state_error(JointLoss& loss, const ContactLaw& law, double lowest,
+                 const std::function<double(const ContactLaw&)>& work_of) {
+  loss.work_error =
+      detail::error_of_table(law, lowest, loss.work_per_cycle, loss.work_per_cycle, work_of)
+          .total();
+  if (!(loss.work_error >= std::abs(loss.work_per_cycle))) return;
+  loss.work_per_cycle = loss.relaxation_work = loss.slip_work = loss.work_error = loss.exponent =
+      JointLoss::unknown;
+  set_ratios(loss);
+}
+
+}  // namespace
+
 JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options) {
@@ -429,15 +446,10 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   detail::require_possible(law, high, 0, [&](double) { return high; });
   JointLoss loss = loss_of_springs(law, high, motion, friction_coefficient, options.tolerance);
   const double depth = (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
-  if (detail::reaches_below_table(law, high - depth)) {
-    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-    loss.work_error =
-        loss.work_per_cycle *
-        detail::change_below_table(
-            law, loss.work_per_cycle,
-            loss_of_springs(other, high, motion, friction_coefficient, options.tolerance)
-                .work_per_cycle);
-  }
+  state_error(loss, law, high - depth, [&](const ContactLaw& other) {
+    return loss_of_springs(other, high, motion, friction_coefficient, options.tolerance)
+        .work_per_cycle;
+  });
   return loss;
 }
 
@@ -486,7 +498,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
       // The springs of the law are those of contacts on the given cells.
       loss.work_error = elastic * std::abs(by_springs / elastic_displacement - 1);
       loss.exponent = JointLoss::unknown;
-      loss.regime = JointRegime::slides;
+      loss.regime = Regime::sliding;
       set_ratios(loss);
       continue;
     }
@@ -560,7 +572,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
   loss.regime = regime_of(law, motion, loss, one.limit);
   // A loss below this fraction of x T is round-off, as where nothing slips in phase.
   constexpr double no_loss = 1e-12;
-  if (loss.regime != JointRegime::slides && one.work > no_loss * one.displacement * one.force) {
+  if (loss.regime != Regime::sliding && one.work > no_loss * one.displacement * one.force) {
     // The exponent of the loss follows from a second motion that is 1 % smaller. If the force
     // differs by less than 1e-6, the contact slides within the accuracy of the steps, and the
     // exponent is unknown.
@@ -569,12 +581,9 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
       loss.exponent = std::log(one.work / less.work) / change;
   }
   const double deepest = mean - amplitude - loss.tangential_amplitude / one.limit;
-  if (detail::reaches_below_table(law, deepest)) {
-    const detail::ContinuedLaw other(law, detail::BelowTable::exponential);
-    loss.work_error = loss.work_per_cycle *
-                      detail::change_below_table(law, loss.work_per_cycle,
-                                                 at(other, middle_of(other, amplitude), 1).work);
-  }
+  state_error(loss, law, deepest, [&](const ContactLaw& other) {
+    return at(other, middle_of(other, amplitude), 1).work;
+  });
   loss.converged = true;
   set_ratios(loss);
   return loss;

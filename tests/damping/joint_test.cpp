@@ -147,7 +147,7 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   const double critical = ratio * u_x / u_z;
   CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
   CHECK(std::isnan(at(1.01 * critical, 0).exponent));
-  CHECK(at(1.01 * critical, 0).regime == JointRegime::sticks);
+  CHECK(at(1.01 * critical, 0).regime == Regime::no_slip);
   CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);
   const EqualFrequency motion{u_z, u_x, pi / 2, 0};
   const double stuck = relaxation_damping(law, at_force(2), motion).work_per_cycle;
@@ -281,7 +281,7 @@ TEST_CASE("A joint from partial slip to a hundred times its knee is a sum over s
       CHECK(loss.loss_factor == Approx(loss.work_per_cycle / (pi * x * loss.tangential_force)));
       if (factor < 1 || !std::isfinite(loss.knee)) continue;
       CHECK(loss.knee == Approx(knee).epsilon(1e-12));
-      CHECK(loss.regime == JointRegime::slides);
+      CHECK(loss.regime == Regime::sliding);
       CHECK(std::isnan(loss.exponent));
       CHECK(loss.tangential_force == Approx(friction).epsilon(1e-9));
       CHECK(loss.loss_factor ==
@@ -300,7 +300,7 @@ TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the k
   CHECK(slid.elastic_displacement == Approx(0.8 * slope * depth).epsilon(1e-9));
   CHECK(slid.knee == Approx(slope * depth).epsilon(1e-12));
   CHECK(slid.work_per_cycle == Approx(4 * 3 * (1e-6 - 0.8 * slope * depth)).epsilon(1e-9));
-  CHECK(slid.regime == JointRegime::slides);
+  CHECK(slid.regime == Regime::sliding);
 
   // W = 4μμ'lF[(Y − 2) + (Y + 2) exp(−Y)], Y = x/(μ'l), from partial slip on.
   const double length = 3e-8;
@@ -317,9 +317,9 @@ TEST_CASE("Gross slip in closed form: sphere, exponential law, and through the k
     CHECK(std::isinf(loss.knee));
     CHECK(loss.converged);
     // exp(−3) is 5 % of the force.
-    CHECK(loss.regime == (y < 0.01   ? JointRegime::sticks
-                          : y < 2.99 ? JointRegime::partial_slip
-                                     : JointRegime::slides));
+    CHECK(loss.regime == (y < 0.01   ? Regime::no_slip
+                          : y < 2.99 ? Regime::partial_slip
+                                     : Regime::sliding));
     CHECK(std::isnan(loss.exponent) == (y > 3));
   }
 
@@ -429,11 +429,11 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
               CHECK(loss.slip_work == 0);
               ++lifted;
             }
-            if (factor == 100) CHECK(loss.regime == JointRegime::slides);
+            if (factor == 100) CHECK(loss.regime == Regime::sliding);
             // A spring that touches still sticks for most of its time.
-            if (factor == 0.1) CHECK(loss.regime != JointRegime::slides);
+            if (factor == 0.1) CHECK(loss.regime != Regime::sliding);
             if (factor < 0.5 && normal > 1 && law == &sphere)
-              CHECK(loss.regime == JointRegime::lifts_off);
+              CHECK(loss.regime == Regime::lifts_off);
           }
   }
   CHECK(lifted > 20);
@@ -451,7 +451,7 @@ TEST_CASE("A joint under a normal oscillation is a sum over springs, through lif
     CHECK(loop.mean_force == Approx(1).epsilon(1e-3));
     CHECK(loss.work_per_cycle == Approx(loop.work).epsilon(5e-3));
     CHECK(loss.tangential_force == Approx(loop.force).epsilon(5e-3));
-    CHECK((loss.regime == JointRegime::slides) == (x > 1e-7));
+    CHECK((loss.regime == Regime::sliding) == (x > 1e-7));
   }
   // A tangential force cannot act between bodies that are apart.
   CHECK_THROWS_WITH(

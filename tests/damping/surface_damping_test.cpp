@@ -478,7 +478,7 @@ TEST_CASE("A joint of a surface that slides as a whole loses 4μF(x − 2μ'U/F)
         surface_joint_loss(surface, stuck, law, at_force(pressure * surface.grid.area()),
                            {TangentialAmplitude{x}}, friction)[0];
     INFO(seed << ' ' << loss.work_per_cycle / exact - 1 << ' ' << loss.work_error / exact);
-    CHECK(loss.regime == JointRegime::slides);
+    CHECK(loss.regime == Regime::sliding);
     CHECK(loss.tangential_force == Approx(friction * high.force).epsilon(1e-9));
     CHECK(std::abs(loss.work_per_cycle - exact) < loss.work_error);
     CHECK(loss.work_error < 0.02 * exact);

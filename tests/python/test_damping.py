@@ -350,7 +350,7 @@ def test_a_sphere_in_partial_slip_is_mindlins() -> None:
         salebra.joint_loss(law, friction_coefficient=0.3, force=10.0)
     # All of it slides: W = 4μF(x − 0.8 μ'δ), and a damping constant W/(πωx²) where a frequency is given.
     slid = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=5e-6, force=10.0, angular_frequency=1e3)
-    assert slid.regime == "slides"
+    assert slid.regime == "sliding"
     assert slid.elastic_displacement == pytest.approx(0.8 * slid.knee, rel=1e-9)
     assert slid.work_per_cycle == pytest.approx(12 * (5e-6 - slid.elastic_displacement), rel=1e-9)
     assert slid.damping_constant == pytest.approx(slid.work_per_cycle / (math.pi * 1e3 * 25e-12), rel=1e-12)

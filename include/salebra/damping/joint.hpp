@@ -2,33 +2,12 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/quantities.hpp>
+#include <salebra/damping/regime.hpp>
 
 namespace salebra {
-
-/// How a contact follows a tangential oscillation of the displacement between ±x.
-enum class JointRegime {
-  unknown,       ///< not known
-  sticks,        ///< slip changes the loss by less than 5 % of x T
-  partial_slip,  ///< some springs slip, others stick
-  lifts_off,     ///< the bodies separate in every cycle of the normal oscillation
-  /// The contact slides as a whole: the springs that still stick carry less than 5 % of the normal
-  /// force. This is Coulomb friction, T = μF, and not a damper.
-  slides
-};
-
-template <>
-struct EnumNames<JointRegime> {
-  static constexpr auto values = std::to_array<std::pair<JointRegime, std::string_view>>(
-      {{JointRegime::unknown, "unknown"},
-       {JointRegime::sticks, "sticks"},
-       {JointRegime::partial_slip, "partial slip"},
-       {JointRegime::lifts_off, "lifts off"},
-       {JointRegime::slides, "slides"}});
-};
 
 /// Energy loss and stiffness of a joint under a tangential oscillation, of the displacement between
 /// ±x or of the force between ±T. Below, μ' = μ/ρ is the slope of the friction limit of a spring:
@@ -42,8 +21,9 @@ struct JointLoss {
   double work_per_cycle = unknown;        ///< W, J
   double relaxation_work = unknown;       ///< part of W by springs that open and close, J
   double slip_work = unknown;             ///< part of W by springs that stay closed, J
-  /// Error of W, J: for a surface its numerical error; for a table whose springs slip below its
-  /// lowest sample, the change of W if the table continues exponentially. NaN: not known.
+  /// Error of W, J: for a surface its numerical error; for a table the change of W without every
+  /// other sample, and if the table continues exponentially below its lowest one. A W that is no
+  /// larger is NaN. NaN: not known.
   double work_error = unknown;
   double secant_stiffness = unknown;   ///< K_s = T/x, N/m
   double loss_factor = unknown;        ///< W/(2π · ½K_s x²)
@@ -64,7 +44,7 @@ struct JointLoss {
   double max_force = unknown;   ///< F at the largest δ, N; NaN without a normal oscillation
   /// Share of the period in which the bodies touch; NaN without a normal oscillation.
   double contact_time = unknown;
-  JointRegime regime = JointRegime::unknown;
+  Regime regime = Regime::unknown;
   Hold hold = Hold::indentation;  ///< the mean value that the normal oscillation keeps
   bool converged = false;         ///< whether the quadratures reached the tolerance
 
@@ -100,7 +80,7 @@ constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
   visit(&S::mean_force, WhereKnown{quantity::mean_force});
   visit(&S::max_force, WhereKnown{quantity::max_force});
   visit(&S::contact_time, WhereKnown{quantity::contact_time});
-  visit(&S::regime, Kept{"regime", "sticks, partial slip, lifts off, slides or unknown"});
+  visit(&S::regime, Kept{"regime", "no slip, partial slip, lifts off, sliding or unknown"});
   visit(&S::hold, Kept{"hold", "mean value that the normal oscillation keeps"});
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
