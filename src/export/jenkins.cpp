@@ -22,11 +22,12 @@ class Backbone {
   Backbone(const std::vector<DeckContact>& contacts, double friction_coefficient)
       : contacts_(contacts), friction_(friction_coefficient) {
     for (const DeckContact& contact : contacts) {
-      end_ = std::max(end_, (contact.indentation - contact.law->first_touch()) / depth_of(contact));
+      depth_.push_back(ratio_of_whole(contact) / friction_);
+      end_ = std::max(end_, (contact.indentation - contact.law->first_touch()) / depth_.back());
       force_ += friction_ * contact.law->force(contact.indentation) / double(contacts.size());
       for (const double depth : contact.law->break_points())
         if (depth < contact.indentation)
-          bends_.push_back((contact.indentation - depth) / depth_of(contact));
+          bends_.push_back((contact.indentation - depth) / depth_.back());
     }
     std::ranges::sort(bends_);
   }
@@ -34,10 +35,8 @@ class Backbone {
   double slip_force() const { return force_; }
   double stiffness(double x) const {
     double sum = 0;
-    for (const DeckContact& contact : contacts_) {
-      const ContactLaw& law = *contact.law;
-      sum += law.tangential_stiffness(contact.indentation - depth_of(contact) * x);
-    }
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      sum += contacts_[i].law->tangential_stiffness(contacts_[i].indentation - depth_[i] * x);
     return sum / double(contacts_.size());
   }
   /// ∫ weight(x) T'(x) dx between the displacements `from` and `to`.
@@ -60,12 +59,22 @@ class Backbone {
   double end() const { return end_; }
 
  private:
-  /// Depth of slip divided by the displacement: (K_t/K)/μ.
-  double depth_of(const DeckContact& contact) const {
-    return contact.law->stiffness_ratio(contact.indentation) / friction_;
+  /// K_t/K of the whole contact, ∫K_t dδ/F, with which it carries μF when all springs slip.
+  static double ratio_of_whole(const DeckContact& contact) {
+    const ContactLaw& law = *contact.law;
+    const double low = law.first_touch(), high = contact.indentation;
+    if (!std::isfinite(low)) return law.stiffness_ratio(high);
+    std::vector<double> points{low};
+    for (const double point : law.break_points())
+      if (point > low && point < high) points.push_back(point);
+    points.push_back(high);
+    return integrate([&](double one) { return law.tangential_stiffness(one); }, points, 1e-12)
+               .value /
+           law.force(high);
   }
 
   const std::vector<DeckContact>& contacts_;
+  std::vector<double> depth_;  // depth of slip divided by the displacement, for each contact
   double friction_, force_ = 0, end_ = 0;
   std::vector<double> bends_;
 };
@@ -115,10 +124,7 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
   SliderSet set{.sliders = {}, .stiffness = backbone.stiffness(0), .force = backbone.slip_force()};
   // Fraction of the force of all springs that is resolved; the last slider represents all springs
   // that slip later.
-  constexpr double resolved = 0.999;
-  // If K_t/K varies along the law, the springs may carry less than μF when all of them slip.
-  const double carried = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
-  set.resolved = resolved * std::min(1.0, carried / set.force);
+  set.resolved = 0.999;
   require(min_force < set.resolved, "min_force", min_force,
           fmt::format("must be below {:.4g}, beyond which one slider holds all that sticks",
                       set.resolved));

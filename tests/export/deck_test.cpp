@@ -305,7 +305,10 @@ TEST_CASE("The conductance over the pressure is that of the stiffness, in every 
   }
   CHECK(table.size() >= 198);
   for (const auto& [pressure, value] : table)
-    REQUIRE(value * unit == Approx(conductance(pressure * pascal)).epsilon(1e-5));
+    if (pressure > 0)
+      REQUIRE(value * unit == Approx(conductance(pressure * pascal)).epsilon(1e-5));
+    else
+      REQUIRE(value == 0);
 }
 
 TEST_CASE("A conductance needs E*, and a format that has one", "[export]") {
