@@ -144,10 +144,13 @@ JointSolution solve(JointProblem problem, const Context& context) {
     solution.losses = losses_of_law(problem, law, point, context);
   }
   require_converged(solution.losses, "integrals did not reach the tolerance");
-  if (surface && oscillates)
+  if (surface && oscillates) {
+    // The error by the distances between the loads is known, that by the cells is not.
+    for (JointLoss& loss : solution.losses) loss.work_error = JointLoss::unknown;
     solution.warnings.emplace_back(
         "the loss is computed on a law through some loads; its error is not known, because the "
         "normal force oscillates");
+  }
   if (const auto lost = std::ranges::count_if(
           solution.losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
       lost > 0)
