@@ -65,9 +65,25 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
   if (guarded.failure) std::rethrow_exception(guarded.failure);
   // If the tolerance is near round-off, GSL ends the refinement with a status for round-off; then
   // the error estimate decides whether the integral has converged.
-  const double goal = std::max(absolute_tolerance, relative_tolerance * std::abs(result.value));
-  result.converged =
-      std::isfinite(result.value) && (status == GSL_SUCCESS || result.error <= 10 * goal);
+  const auto goal = [&] {
+    return std::max(absolute_tolerance, relative_tolerance * std::abs(result.value));
+  };
+  const auto converged = [&] { return std::isfinite(result.value) && result.error <= 10 * goal(); };
+  result.converged = std::isfinite(result.value) && (status == GSL_SUCCESS || converged());
+  if (result.converged || distinct.size() == 2 || !std::isfinite(result.value)) return result;
+  // Among many pieces the extrapolation towards a singularity at an end of one of them may fail.
+  // Each piece for itself then needs fewer intervals.
+  const double part = goal() / double(distinct.size());
+  result = {};
+  for (std::size_t i = 0; i + 1 < distinct.size(); ++i) {
+    Integral piece;
+    gsl_integration_qags(&function, distinct[i], distinct[i + 1], part, relative_tolerance,
+                         max_intervals, workspace.get(), &piece.value, &piece.error);
+    if (guarded.failure) std::rethrow_exception(guarded.failure);
+    result.value += piece.value;
+    result.error += piece.error;
+  }
+  result.converged = converged();
   return result;
 }
 
