@@ -44,6 +44,10 @@ BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const Forc
     result.tangential_stiffness = load.tangential_stiffness;
     result.force = load.force;
     result.indentation = load.indentation;
+    result.mean_force = losses[k].mean_force;
+    result.max_force = losses[k].max_force;
+    result.contact_time = losses[k].contact_time;
+    result.hold = losses[k].hold;
     result.error_estimate = losses[k].work_per_cycle_error();
     result.converged = losses[k].converged;
     curve.results.push_back({result, {}, {}});

@@ -118,12 +118,12 @@ struct OnGrid {
 class SurfaceSlidingRun {
  public:
   SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
-                    const SurfaceSlidingMotion& motion)
+                    const SurfaceSlidingMotion& motion, Hold hold)
       : material_(material),
         load_(load),
         ratio_(ratio),
         motion_(motion),
-        hold_(detail::hold_of(load, motion.normal.normal_amplitude, motion.hold)) {
+        hold_(hold) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
 
@@ -210,17 +210,18 @@ std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
   require_positive(motion.normal.normal_amplitude, "normal_amplitude");
   const ForceSample& sample = curve.samples[load];
   const StiffnessRatio ratio = detail::ratio_on(curve, load, material.modulus_ratio());
-  SurfaceSlidingRun run(material, sample, ratio, motion);
+  ForceCurve about = curve;
+  about.samples = {sample};
+  const Hold hold = detail::hold_of(about, motion.normal.normal_amplitude, motion.hold);
+  SurfaceSlidingRun run(material, sample, ratio, motion, hold);
   const OnGrid own = run.on(surface, own_intervals, true, on_progress);
   OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
   // The error by the cells is of second order: a third of the change remains on the finer cells.
   const ArrayXd errors =
       (fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16).sqrt();
 
-  SurfaceDampingOptions options{.hold = motion.hold, .on_progress = on_progress};
+  SurfaceDampingOptions options{.hold = hold, .on_progress = on_progress};
   // The ratio K_t/K of this curve comes from contacts inside the oscillation.
-  ForceCurve about = curve;
-  about.samples = {sample};
   const Drag drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency};
   const SurfaceDamping stuck = surface_damping(surface, material, drag, about, options)[0];
 
