@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <string>
 #include <vector>
 

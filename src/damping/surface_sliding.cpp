@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <span>
@@ -13,6 +14,7 @@
 
 #include "surface/refine.hpp"
 #include "surface_contacts.hpp"
+#include "wide_oscillation.hpp"
 
 namespace salebra {
 namespace {
@@ -123,11 +125,15 @@ class SurfaceSlidingRun {
         load_(load),
         ratio_(ratio),
         motion_(motion),
-        hold_(hold) {
+        hold_(hold),
+        oscillation_(Drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency}),
+        wide_(material, oscillation_, options_, hold, {{load.pressure, load.force}},
+              detail::RatioOfLoads({detail::point_of(load, material.modulus_ratio())})) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
 
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
+    if (detail::is_wide(load_, motion_.normal.normal_amplitude)) return wide_on(surface, progress);
     NormalContactOptions contact;
     contact.on_progress = progress;
     // The force changes by about F(KH/F) over half the range H of the contacts, and its second
@@ -178,6 +184,33 @@ class SurfaceSlidingRun {
   }
 
  private:
+  /// A wide oscillation uses the law of the surface from first touch to the largest force.
+  OnGrid wide_on(const Surface& surface, const Progress& progress) {
+    const std::vector<StiffnessSample> contacts = wide_.contacts(surface, progress);
+    if (const double possible = wide_.possible_amplitude(); !std::isnan(possible))
+      require(false, "normal_amplitude", motion_.normal.normal_amplitude,
+              "m presses the surface beyond full contact; at most " +
+                  format_quantity(possible, Dimension::length, 2) + " is possible");
+    if (contacts.empty()) throw NotConverged("sliding: a contact of the surface did not converge");
+    const auto states = [&](const std::vector<StiffnessSample>& some,
+                            const detail::RatioOfLoads& ratio, detail::BelowTable below) {
+      const detail::SurfaceLaw law(some, ratio, material_.modulus_ratio());
+      const detail::ContinuedLaw continued(law, below);
+      return states_of(continued, at_force(load_.force));
+    };
+    using enum detail::BelowTable;
+    OnGrid grid;
+    grid.states = states(contacts, wide_.ratio(), opens);
+    grid.numbers = numbers_of(grid.states);
+    const auto square = [&](const std::vector<SteadySliding>& other) -> ArrayXd {
+      return (numbers_of(other) - grid.numbers).square();
+    };
+    grid.squares = square(states(detail::every_other(contacts), wide_.ratio(), opens)) +
+                   square(states(contacts, wide_.ratio().straight(), opens)) +
+                   square(states(contacts, wide_.ratio(), exponential));
+    return grid;
+  }
+
   static VectorXd stiffness_at(const KrigedStiffness& kriged, const VectorXd& positions) {
     return positions.unaryExpr([&](double position) { return kriged.stiffness(position); });
   }
@@ -188,6 +221,10 @@ class SurfaceSlidingRun {
     const OperatingPoint point = hold_ == Hold::indentation
                                      ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);
+    return states_of(law, point);
+  }
+
+  std::vector<SteadySliding> states_of(const ContactLaw& law, const OperatingPoint& point) const {
     return steady_sliding(law, point, motion_.normal, motion_.velocities,
                           motion_.friction_coefficient, {.hold = hold_, .tolerance = 1e-7});
   }
@@ -197,6 +234,9 @@ class SurfaceSlidingRun {
   StiffnessRatio ratio_;
   const SurfaceSlidingMotion& motion_;
   Hold hold_;
+  Oscillation oscillation_;
+  SurfaceDampingOptions options_ = {};
+  detail::WideOscillation wide_;
   double half_ = 0;  // half the range of indentations of the contacts, m
   VarianceScales scales_;
 };

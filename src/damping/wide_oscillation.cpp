@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -91,7 +92,7 @@ bool WideOscillation::reach(SurfaceContacts& contacts_at, std::vector<StiffnessS
     if (needed <= law.highest_indentation()) return true;
     const auto next = further_indentation(law, needed, contacts_at.limit(), hold_);
     if (!next) {
-      possible_amplitude_[load] = possible_amplitude(
+      possible_amplitude_[load] = detail::possible_amplitude(
           law, force, amplitude_, hold_,
           hold_ == Hold::force ? law.highest_indentation() : contacts_at.limit());
       return false;
@@ -236,11 +237,37 @@ void WideOscillation::add_noise(WideLoss& loss,
         scatter * std::abs((*spring)(-amplitude_) - (*spring)(-amplitude_ - step));
 }
 
-double WideOscillation::peak_force(const Surface& surface, const Progress& progress) {
+NormalContactOptions WideOscillation::contact_options(const Progress& progress) const {
   NormalContactOptions contact;
   contact.boundary = options_.boundary;
   contact.on_progress = progress;
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
+  contact.tolerance = contact_tolerance;
+  return contact;
+}
+
+/// Finds the range of the contacts on the first grid. Returns whether this is the first grid.
+bool WideOscillation::begin(SurfaceContacts& contacts_at) {
+  if (begun_) return false;
+  begun_ = true;
+  peak_ = contacts_at.peak();
+  find_range(contacts_at);
+  return true;
+}
+
+std::vector<StiffnessSample> WideOscillation::contacts(const Surface& surface,
+                                                       const Progress& progress) {
+  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
+  const bool first = begin(contacts_at);
+  if (!(highest_ > lowest_) || !contacts_at.usable()) return {};
+  std::vector<StiffnessSample> contacts = contacts_on(contacts_at, 32);
+  if (first && sticks_ && contacts_at.usable()) add_ratios(contacts_at, contacts);
+  if (!contacts_at.usable() || !reach(contacts_at, contacts, 0)) return {};
+  std::ranges::sort(contacts, std::greater(), &StiffnessSample::indentation);
+  return contacts;
+}
+
+double WideOscillation::peak_force(const Surface& surface, const Progress& progress) {
+  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
   find_range(contacts_at);
   return contacts_at.usable() ? peak_force_ : Loss::unknown;
 }
@@ -277,18 +304,9 @@ ResidualSurface loaded_by_motion(Surface surface, double contact_modulus, double
 }
 
 std::vector<WideLoss> WideOscillation::on(const Surface& surface, const Progress& progress) {
-  NormalContactOptions contact;
-  contact.boundary = options_.boundary;
-  contact.on_progress = progress;
-  contact.tolerance = contact_tolerance;
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
+  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
   std::vector<WideLoss> losses(loads_.size());
-  const bool first = !begun_;
-  if (first) {
-    begun_ = true;
-    peak_ = contacts_at.peak();
-    find_range(contacts_at);
-  }
+  const bool first = begin(contacts_at);
   for (std::size_t k = 0; k < loads_.size(); ++k)
     losses[k].possible_amplitude = possible_amplitude_[k];
   if (!(highest_ > lowest_) || !contacts_at.usable()) return losses;

@@ -55,6 +55,11 @@ class WideOscillation {
   /// The losses on one grid. The first grid chooses the range of the contacts and their number; on
   /// every other grid half as many contacts change the loss of the first grid.
   std::vector<WideLoss> on(const Surface& surface, const Progress& progress);
+  /// Contacts of the law of one load on one grid, in 32 intervals, from the highest to the lowest;
+  /// empty if the motion presses beyond full contact or a contact did not converge.
+  std::vector<StiffnessSample> contacts(const Surface& surface, const Progress& progress);
+  double possible_amplitude() const { return possible_amplitude_.front(); }
+  const RatioOfLoads& ratio() const { return ratio_; }
   /// The largest force of all possible motions, N; NaN if none is possible.
   double peak_force(const Surface& surface, const Progress& progress);
   int intervals() const { return intervals_; }
@@ -62,6 +67,8 @@ class WideOscillation {
   double window() const { return (highest_ - lowest_) / 2; }
 
  private:
+  NormalContactOptions contact_options(const Progress& progress) const;
+  bool begin(SurfaceContacts& contacts_at);
   void find_range(SurfaceContacts& contacts_at);
   bool reach(SurfaceContacts& contacts_at, std::vector<StiffnessSample>& contacts,
              std::size_t load);

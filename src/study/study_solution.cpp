@@ -7,6 +7,7 @@
 #include <salebra/study/study_solution.hpp>
 
 #include "damping/phase_quadrature.hpp"
+#include "damping/surface_law.hpp"
 
 namespace salebra {
 namespace {
@@ -84,15 +85,18 @@ StudySolution solution_of(const StudyResult& result) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
     const ContactParameters known = parameters_of(result);
     const double amplitude = detail::normal_amplitude(configuration.motion);
+    const auto possible = result.damping(&DampingPoint::possible_amplitude);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
-      ContactParameters parameters =
-          at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
+      // Beyond full contact there is no motion to judge.
+      if (!std::isnan(possible[k].mean)) continue;
+      const double mean =
+          detail::mean_indentation(law, sample.force, amplitude, configuration.hold());
+      ContactParameters parameters = at_state(known, law, &curve, mean, mean + amplitude);
       parameters.nominal_pressure = sample.pressure;
       parameters.loaded_size = known.loaded_size;
-      solution.assumptions[k] =
-          assumptions_of(law, -sample.mean_gap, configuration.motion, parameters);
+      solution.assumptions[k] = assumptions_of(law, mean, configuration.motion, parameters);
     }
   }
   solution.verdicts = verdicts_of(solution.assumptions, solution.slips(), result.pressures);
