@@ -103,7 +103,9 @@ void bind_surface_damping(nb::module_& m) {
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
-              SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
+              SurfaceContact contact{.surface = surface.surface,
+                                     .material = material,
+                                     .pressure = pressures->values};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
               const DampingSolution solution = solve(DampingProblem{.contact = std::move(contact),
                                                                     .motions = {described},
@@ -144,7 +146,8 @@ pressures : float or array, optional
 parameters : ContactParameters, optional
     Friction, hardness, density and the like. With a coefficient of friction the loss includes slip; with a hardness the surface is first
     loaded plastically; all of them are used to judge the assumptions.
-hold : {"indentation", "force"}
+hold : {"auto", "force", "indentation"}
+    What the oscillation keeps at all loads; "auto": the mean force if the contact lifts off at the lowest load.
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
     Boundary of the curve; `pressures` use "periodic".

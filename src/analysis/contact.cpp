@@ -191,7 +191,7 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
                             format_quantity(detail::possible_amplitude(
                                                 law, force, amplitude, hold,
                                                 hold == Hold::force ? top : full),
-                                            Dimension::length, 2)));
+                                            Dimension::length, 3)));
       const double length = law.force(top) / law.normal_stiffness(top);
       NormalContactState state =
           press(body.surface, body.material.contact_modulus,

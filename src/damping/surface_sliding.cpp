@@ -190,7 +190,7 @@ class SurfaceSlidingRun {
     if (const double possible = wide_.possible_amplitude(); !std::isnan(possible))
       require(false, "normal_amplitude", motion_.normal.normal_amplitude,
               "m presses the surface beyond full contact; at most " +
-                  format_quantity(possible, Dimension::length, 2) + " is possible");
+                  format_quantity(possible, Dimension::length, 3) + " is possible");
     if (contacts.empty()) throw NotConverged("sliding: a contact of the surface did not converge");
     const auto states = [&](const std::vector<StiffnessSample>& some,
                             const detail::RatioOfLoads& ratio, detail::BelowTable below) {

@@ -54,7 +54,7 @@ void warn_of_full_contact(StudyResult& result) {
       format_quantity(amplitude, Dimension::length, 3), surfaces, result.realisations.size(),
       pressures.size(), result.pressures.size(),
       format_quantity(pressures.front(), Dimension::pressure, 3),
-      format_quantity(least_possible(result), Dimension::length, 2)));
+      format_quantity(least_possible(result), Dimension::length, 3)));
 }
 
 void warn_of_held_indentation(StudyResult& result) {
@@ -257,14 +257,17 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     if (!run.missing) require_disk_space(result, run.groups);
     // Every process finds the same, because it presses the same first surface. All results of a
     // study can then be compared.
-    if (!hold && !run.missing)
-      hold = hold_of(point, first_surface(point, run), result.pressures.front());
-    result.configuration.found_hold = hold;
+    const auto find_hold = [&] {
+      if (!hold) hold = hold_of(point, first_surface(point, run), result.pressures.front());
+      result.configuration.found_hold = hold;
+    };
+    if (!run.missing) find_hold();
     report.point = results.size();
     detail::run_case(result, run, report);
     report.finished += detail::seeds_of(point).size();
     const bool interrupted = result.interrupted;
     if (!result.realisations.empty()) {
+      find_hold();
       result.grid = result.realisations.front().grid;
       warn(result);
       warn_of_ensemble(result);

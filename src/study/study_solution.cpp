@@ -89,8 +89,13 @@ StudySolution solution_of(const StudyResult& result) {
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
-      // Beyond full contact there is no motion to judge.
-      if (!std::isnan(possible[k].mean)) continue;
+      // Where the motion presses beyond full contact there is no loss whose assumptions could be
+      // judged.
+      if (!std::isnan(possible[k].mean)) {
+        for (const AssumptionName& name : assumption_names())
+          solution.assumptions[k].*name.assumption = {.verdict = Verdict::holds};
+        continue;
+      }
       const double mean =
           detail::mean_indentation(law, sample.force, amplitude, configuration.hold());
       ContactParameters parameters = at_state(known, law, &curve, mean, mean + amplitude);
