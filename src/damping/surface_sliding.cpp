@@ -133,7 +133,7 @@ class SurfaceSlidingRun {
   }
 
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
-    if (detail::is_wide(load_, motion_.normal.normal_amplitude)) return wide_on(surface, progress);
+    if (is_wide()) return wide_on(surface, progress);
     NormalContactOptions contact;
     contact.on_progress = progress;
     // The force changes by about F(KH/F) over half the range H of the contacts, and its second
@@ -184,6 +184,13 @@ class SurfaceSlidingRun {
   }
 
  private:
+  /// Nine contacts with kriging describe wider oscillations than the five of surface_damping() do.
+  bool is_wide() const {
+    const double amplitude = motion_.normal.normal_amplitude;
+    return amplitude > load_.indentation ||
+           amplitude > 3 * load_.force / load_.normal_stiffness;
+  }
+
   /// A wide oscillation uses the law of the surface from first touch to the largest force.
   OnGrid wide_on(const Surface& surface, const Progress& progress) {
     const std::vector<StiffnessSample> contacts = wide_.contacts(surface, progress);
@@ -205,7 +212,21 @@ class SurfaceSlidingRun {
     const auto square = [&](const std::vector<SteadySliding>& other) -> ArrayXd {
       return (numbers_of(other) - grid.numbers).square();
     };
-    grid.squares = square(states(detail::every_other(contacts), wide_.ratio(), opens)) +
+    // The numbers depend most on K at the smallest indentation, where springs begin to slide.
+    const detail::SurfaceLaw law(contacts, wide_.ratio(), material_.modulus_ratio());
+    const double least = detail::mean_indentation(law, load_.force,
+                                                  motion_.normal.normal_amplitude, hold_) -
+                         motion_.normal.normal_amplitude;
+    constexpr double share = 0.01;
+    std::vector<StiffnessSample> stiffer = contacts;
+    const auto nearest = std::ranges::min_element(stiffer, {}, [&](const StiffnessSample& one) {
+      return std::abs(one.indentation - least);
+    });
+    nearest->stiffness *= 1 + share;
+    const double deviations = detail::stated_deviations *
+                              detail::WideOscillation::scatter(contacts, least) / share;
+    grid.squares = deviations * deviations * square(states(stiffer, wide_.ratio(), opens)) +
+                   square(states(detail::every_other(contacts), wide_.ratio(), opens)) +
                    square(states(contacts, wide_.ratio().straight(), opens)) +
                    square(states(contacts, wide_.ratio(), exponential));
     return grid;

@@ -199,15 +199,12 @@ std::optional<LossOfSpring> WideOscillation::spring_of(const ContactLaw& law,
                       options_.excursion);
 }
 
-/// Adds the scatter of a loss. Cells and contact patches enter singly, so that K scatters about a
-/// smooth function. The scatter averages out over the springs that open; but the loss also depends
-/// on K at the smallest indentation, above which springs open. Simpson's rule gives the differences
-/// of the forces from the stiffnesses of three contacts; its deviations about the smallest
-/// indentation show how much K scatters.
-void WideOscillation::add_noise(WideLoss& loss,
-                                const std::vector<StiffnessSample>& contacts) const {
+/// The relative scatter of K about the indentation `least`. Cells and contact patches enter singly,
+/// so that K scatters about a smooth function. Simpson's rule gives the differences of the forces
+/// from the stiffnesses of three contacts; its deviations about `least` show how much K scatters.
+double WideOscillation::scatter(const std::vector<StiffnessSample>& contacts, double least) {
   constexpr std::size_t triples_above = 3;
-  const double least = loss.indentation - amplitude_;
+  if (!(least > 0)) return 0;
   const auto first_below = std::ranges::find_if(
       contacts, [&](const StiffnessSample& one) { return one.indentation < least; });
   const auto at = std::size_t(first_below - contacts.begin());
@@ -224,17 +221,24 @@ void WideOscillation::add_noise(WideLoss& loss,
     sum += deviation * deviation / 18;
     ++count;
   }
-  if (count == 0 || !(least > 0)) return;
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+/// Adds the noise of a loss. The scatter of K averages out over the springs that open; but the loss
+/// also depends on K at the smallest indentation, above which springs open.
+void WideOscillation::add_noise(WideLoss& loss,
+                                const std::vector<StiffnessSample>& contacts) const {
+  const double least = loss.indentation - amplitude_;
   const SurfaceLaw law(contacts, ratio_, material_.modulus_ratio());
-  const double scatter = std::sqrt(sum / count) * law.tangential_stiffness(least);
+  const double deviation = scatter(contacts, least) * law.tangential_stiffness(least);
   const double step = contacts[0].indentation - contacts[1].indentation;
   static const std::vector<Node> nodes = gauss_nodes(8);
   loss.without_slip.deviation =
-      std::abs(scatter * detail::loss(
-                             motion_, nodes, [](std::size_t) { return 0.0; }, 1.0));
+      std::abs(deviation * detail::loss(
+                               motion_, nodes, [](std::size_t) { return 0.0; }, 1.0));
   if (const auto spring = spring_of(law, ratio_, loss.indentation + amplitude_))
     loss.with_slip.deviation =
-        scatter * std::abs((*spring)(-amplitude_) - (*spring)(-amplitude_ - step));
+        deviation * std::abs((*spring)(-amplitude_) - (*spring)(-amplitude_ - step));
 }
 
 NormalContactOptions WideOscillation::contact_options(const Progress& progress) const {

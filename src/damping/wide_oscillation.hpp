@@ -58,6 +58,8 @@ class WideOscillation {
   /// Contacts of the law of one load on one grid, in 32 intervals, from the highest to the lowest;
   /// empty if the motion presses beyond full contact or a contact did not converge.
   std::vector<StiffnessSample> contacts(const Surface& surface, const Progress& progress);
+  /// The relative standard deviation of K about an indentation, from such contacts.
+  static double scatter(const std::vector<StiffnessSample>& contacts, double least);
   double possible_amplitude() const { return possible_amplitude_.front(); }
   const RatioOfLoads& ratio() const { return ratio_; }
   /// The largest force of all possible motions, N; NaN if none is possible.
