@@ -100,8 +100,8 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
 }
 
 ContactSolution LawOptions::contact(const MaterialOptions& material, Session& session,
-                                    const std::optional<double>& hardness,
-                                    double normal_amplitude, Hold hold) const {
+                                    const std::optional<double>& hardness, double normal_amplitude,
+                                    Hold hold) const {
   ContactProblem asked = problem(material, session, hardness);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) {
     body->normal_amplitude = normal_amplitude;

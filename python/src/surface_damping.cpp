@@ -103,9 +103,8 @@ void bind_surface_damping(nb::module_& m) {
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
-              SurfaceContact contact{.surface = surface.surface,
-                                     .material = material,
-                                     .pressure = pressures->values};
+              SurfaceContact contact{
+                  .surface = surface.surface, .material = material, .pressure = pressures->values};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
               const DampingSolution solution = solve(DampingProblem{.contact = std::move(contact),
                                                                     .motions = {described},

@@ -185,13 +185,13 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
       const auto next = detail::further_indentation(law, needed, full, hold);
       if (!next)
         require(false, "normal_amplitude", amplitude,
-                fmt::format("m presses the surface beyond full contact at the pressure {}; at most "
-                            "{} is possible there",
-                            format_quantity(pressure, Dimension::pressure, 3),
-                            format_quantity(detail::possible_amplitude(
-                                                law, force, amplitude, hold,
-                                                hold == Hold::force ? top : full),
-                                            Dimension::length, 3)));
+                fmt::format(
+                    "m presses the surface beyond full contact at the pressure {}; at most "
+                    "{} is possible there",
+                    format_quantity(pressure, Dimension::pressure, 3),
+                    format_quantity(detail::possible_amplitude(law, force, amplitude, hold,
+                                                               hold == Hold::force ? top : full),
+                                    Dimension::length, 3)));
       const double length = law.force(top) / law.normal_stiffness(top);
       NormalContactState state =
           press(body.surface, body.material.contact_modulus,
@@ -289,8 +289,13 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
                      .at = {ControlQuantity::pressure, body.pressure}};
   auto table = law(swept, context);
   auto points = points_on(swept.curve, swept.at, "surface");
-  return {std::move(table),        std::move(points), std::move(swept.curve),
-          std::move(body.surface), first_loading,     std::move(warnings), hold};
+  return {std::move(table),
+          std::move(points),
+          std::move(swept.curve),
+          std::move(body.surface),
+          first_loading,
+          std::move(warnings),
+          hold};
 }
 
 }  // namespace

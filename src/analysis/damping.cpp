@@ -169,12 +169,12 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = solution.results[i];
-    require(std::isnan(load.possible_amplitude), "normal_amplitude",
-            detail::normal_amplitude(one),
-            fmt::format("m presses the surface beyond full contact at the pressure {}; at most {} is "
-                        "possible there",
-                        format_quantity(pressures[i], Dimension::pressure, 3),
-                        format_quantity(load.possible_amplitude, Dimension::length, 3)));
+    require(
+        std::isnan(load.possible_amplitude), "normal_amplitude", detail::normal_amplitude(one),
+        fmt::format("m presses the surface beyond full contact at the pressure {}; at most {} is "
+                    "possible there",
+                    format_quantity(pressures[i], Dimension::pressure, 3),
+                    format_quantity(load.possible_amplitude, Dimension::length, 3)));
     static_cast<Loss&>(result) = load;
     // The assumptions are judged by the law, so the result keeps the mean indentation of the law.
     result.mean_force = load.mean_force;

@@ -420,8 +420,7 @@ class Load {
     value.indentation = mean;
     value.mean_force = mean_force(kriged, mean);
     value.max_force = kriged.force(mean + amplitude_);
-    value.contact_time =
-        std::acos(std::clamp(-mean / amplitude_, -1.0, 1.0)) / pi;
+    value.contact_time = std::acos(std::clamp(-mean / amplitude_, -1.0, 1.0)) / pi;
     return value;
   }
 

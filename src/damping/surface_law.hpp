@@ -58,8 +58,7 @@ class RatioOfLoads {
 
  private:
   std::size_t place(double force) const {
-    return std::size_t(std::ranges::upper_bound(points_, force, {},
-                                                &StiffnessRatio::Point::force) -
+    return std::size_t(std::ranges::upper_bound(points_, force, {}, &StiffnessRatio::Point::force) -
                        points_.begin());
   }
   std::vector<StiffnessRatio::Point> points_;
@@ -70,8 +69,7 @@ class RatioOfLoads {
 /// interpolated values of K_t would not.
 class SurfaceLaw final : public ContactLaw {
  public:
-  SurfaceLaw(const std::vector<StiffnessSample>& contacts, RatioOfLoads ratio,
-             double modulus_ratio)
+  SurfaceLaw(const std::vector<StiffnessSample>& contacts, RatioOfLoads ratio, double modulus_ratio)
       : ContactLaw(modulus_ratio),
         table_(curve_of(contacts), modulus_ratio),
         ratio_(std::move(ratio)) {}
@@ -141,8 +139,8 @@ inline double possible_amplitude(const ContactLaw& law, double force, double ask
 /// The indentation of a further contact for an oscillation that reaches `needed`, above the law's
 /// highest indentation; `limit` is that of full contact. Empty if the surface cannot be pressed as
 /// far.
-inline std::optional<double> further_indentation(const ContactLaw& law, double needed,
-                                                 double limit, Hold hold) {
+inline std::optional<double> further_indentation(const ContactLaw& law, double needed, double limit,
+                                                 Hold hold) {
   const double top = law.highest_indentation();
   const double length = law.force(top) / law.normal_stiffness(top);
   // With a held indentation the motion is known; with a held force the guess of it may be too high.

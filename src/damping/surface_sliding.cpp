@@ -187,8 +187,7 @@ class SurfaceSlidingRun {
   /// Nine contacts with kriging describe wider oscillations than the five of surface_damping() do.
   bool is_wide() const {
     const double amplitude = motion_.normal.normal_amplitude;
-    return amplitude > load_.indentation ||
-           amplitude > 3 * load_.force / load_.normal_stiffness;
+    return amplitude > load_.indentation || amplitude > 3 * load_.force / load_.normal_stiffness;
   }
 
   /// A wide oscillation uses the law of the surface from first touch to the largest force.
@@ -214,17 +213,16 @@ class SurfaceSlidingRun {
     };
     // The numbers depend most on K at the smallest indentation, where springs begin to slide.
     const detail::SurfaceLaw law(contacts, wide_.ratio(), material_.modulus_ratio());
-    const double least = detail::mean_indentation(law, load_.force,
-                                                  motion_.normal.normal_amplitude, hold_) -
-                         motion_.normal.normal_amplitude;
+    const double least =
+        detail::mean_indentation(law, load_.force, motion_.normal.normal_amplitude, hold_) -
+        motion_.normal.normal_amplitude;
     constexpr double share = 0.01;
     std::vector<StiffnessSample> stiffer = contacts;
-    const auto nearest = std::ranges::min_element(stiffer, {}, [&](const StiffnessSample& one) {
-      return std::abs(one.indentation - least);
-    });
+    const auto nearest = std::ranges::min_element(
+        stiffer, {}, [&](const StiffnessSample& one) { return std::abs(one.indentation - least); });
     nearest->stiffness *= 1 + share;
-    const double deviations = detail::stated_deviations *
-                              detail::WideOscillation::scatter(contacts, least) / share;
+    const double deviations =
+        detail::stated_deviations * detail::WideOscillation::scatter(contacts, least) / share;
     grid.squares = deviations * deviations * square(states(stiffer, wide_.ratio(), opens)) +
                    square(states(detail::every_other(contacts), wide_.ratio(), opens)) +
                    square(states(contacts, wide_.ratio().straight(), opens)) +

@@ -40,8 +40,8 @@ SpringSum sum_over_springs(const ContactLaw& law, double lowest_contact, double 
   constexpr int parts = 16;
   const double least = mean - amplitude, top = mean + amplitude;
   // A law that never opens carries nothing at 20 F/K below its lowest contact.
-  const double end = lowest_contact -
-                     20 * law.force(lowest_contact) / law.normal_stiffness(lowest_contact);
+  const double end =
+      lowest_contact - 20 * law.force(lowest_contact) / law.normal_stiffness(lowest_contact);
   const double bottom = std::max({law.first_touch(), least - loss.depth(), end});
   std::vector<double> ends = law.break_points();
   ends.insert(ends.end(), {bottom, least, least - loss.depth(), top});
@@ -108,8 +108,8 @@ void WideOscillation::find_range(SurfaceContacts& contacts_at) {
   lowest_ = contacts_at.indentation_at(lowest_share * low.pressure);
   const double at_rest = contacts_at.indentation_at(high.pressure);
   // The highest load must lie within the law through these contacts.
-  const double rest = at_rest + std::min(0.1 * (at_rest - lowest_),
-                                         (contacts_at.limit() - at_rest) / 2);
+  const double rest =
+      at_rest + std::min(0.1 * (at_rest - lowest_), (contacts_at.limit() - at_rest) / 2);
   std::vector<StiffnessSample> contacts;
   for (int k = 0; k <= 4 && contacts_at.usable(); ++k)
     contacts.push_back(contacts_at.at(std::lerp(lowest_, rest, k / 4.0)));
@@ -121,8 +121,8 @@ void WideOscillation::find_range(SurfaceContacts& contacts_at) {
   highest_ = lowest_;
   for (std::size_t k = 0; k < loads_.size(); ++k)
     if (std::isnan(possible_amplitude_[k]))
-      highest_ = std::max(
-          highest_, mean_indentation(law, loads_[k].force, amplitude_, hold_) + amplitude_);
+      highest_ = std::max(highest_,
+                          mean_indentation(law, loads_[k].force, amplitude_, hold_) + amplitude_);
   // The law through other contacts, or on other cells, may need a little more.
   peak_force_ = law.force(highest_);
   const double margin = 0.1 * law.force(highest_) / law.normal_stiffness(highest_);
@@ -136,8 +136,8 @@ std::vector<StiffnessSample> WideOscillation::contacts_on(SurfaceContacts& conta
   for (int k = intervals; k >= 0 && contacts_at.usable(); --k) {
     // The same expression for every number of intervals, so that contacts are found again.
     const int part = k * (max_intervals / intervals);
-    contacts.push_back(contacts_at.at(
-        shift + lowest_ + (highest_ - lowest_) * double(part) / double(max_intervals)));
+    contacts.push_back(contacts_at.at(shift + lowest_ +
+                                      (highest_ - lowest_) * double(part) / double(max_intervals)));
   }
   return contacts;
 }
@@ -160,8 +160,9 @@ WideLoss WideOscillation::loss_of(const std::vector<StiffnessSample>& contacts, 
   const ContactLaw& law = exponential ? static_cast<const ContactLaw&>(continued) : table;
   WideLoss loss;
   const double mean = mean_indentation(law, loads_[load].force, amplitude_, hold_);
-  const DampingResult result = damping_about(
-      law, mean, std::visit([](const auto& m) { return Motion(m); }, motion_), quadrature_tolerance);
+  const DampingResult result =
+      damping_about(law, mean, std::visit([](const auto& m) { return Motion(m); }, motion_),
+                    quadrature_tolerance);
   loss.without_slip.work = result.work_per_cycle;
   loss.indentation = mean;
   loss.mean_force = result.mean_force;
@@ -234,8 +235,7 @@ void WideOscillation::add_noise(WideLoss& loss,
   const double step = contacts[0].indentation - contacts[1].indentation;
   static const std::vector<Node> nodes = gauss_nodes(8);
   loss.without_slip.deviation =
-      std::abs(deviation * detail::loss(
-                               motion_, nodes, [](std::size_t) { return 0.0; }, 1.0));
+      std::abs(deviation * detail::loss(motion_, nodes, [](std::size_t) { return 0.0; }, 1.0));
   if (const auto spring = spring_of(law, ratio_, loss.indentation + amplitude_))
     loss.with_slip.deviation =
         deviation * std::abs((*spring)(-amplitude_) - (*spring)(-amplitude_ - step));
@@ -277,8 +277,7 @@ double WideOscillation::peak_force(const Surface& surface, const Progress& progr
 }
 
 ResidualSurface loaded_by_motion(Surface surface, double contact_modulus, double pressure,
-                                 const NormalContactOptions& options, double amplitude,
-                                 Hold hold) {
+                                 const NormalContactOptions& options, double amplitude, Hold hold) {
   if (hold != Hold::force || !(amplitude > 0))
     return after_first_loading(std::move(surface), contact_modulus, pressure, options, amplitude);
   constexpr int max_loadings = 20;
@@ -298,8 +297,8 @@ ResidualSurface loaded_by_motion(Surface surface, double contact_modulus, double
     if (!residual.converged()) return residual;
     WideOscillation oscillation(material, motion, damping, Hold::force,
                                 {{pressure, pressure * surface.grid.area()}}, {});
-    const double peak = oscillation.peak_force(residual.surface, options.on_progress) /
-                        surface.grid.area();
+    const double peak =
+        oscillation.peak_force(residual.surface, options.on_progress) / surface.grid.area();
     // A motion that presses beyond full contact is refused later.
     if (!(peak > load)) return residual;
     load = beyond * peak;

@@ -18,8 +18,7 @@ namespace salebra::detail {
 /// Whether an oscillation about a load is wide: the contact lifts off, or F changes by about a
 /// factor of two or more, over which no parabola describes K.
 inline bool is_wide(const ForceSample& load, double amplitude) {
-  return amplitude > load.indentation ||
-         amplitude > 0.75 * load.force / load.normal_stiffness;
+  return amplitude > load.indentation || amplitude > 0.75 * load.force / load.normal_stiffness;
 }
 
 /// The loss of one load on one grid.
@@ -92,7 +91,7 @@ class WideOscillation {
   double amplitude_;
   bool begun_ = false;
   int intervals_ = 16;
-  double peak_ = 0;                   // height of the highest point of the first grid, m
+  double peak_ = 0;                  // height of the highest point of the first grid, m
   double lowest_ = 0, highest_ = 0;  // range of the contacts on the first grid, m
   double peak_force_ = Loss::unknown;
   std::vector<double> possible_amplitude_;  // of each load; NaN: the motion is possible

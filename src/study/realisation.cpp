@@ -275,13 +275,12 @@ Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
       (configuration.adhesion || configuration.damping.amplitude == Amplitude::small))
     return Hold::indentation;
   return detail::hold_of(surface, configuration.material.contact_modulus, lowest_pressure,
-                         detail::normal_amplitude(configuration.motion),
-                         configuration.damping.hold, progress);
+                         detail::normal_amplitude(configuration.motion), configuration.damping.hold,
+                         progress);
 }
 
-Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked,
-                                std::uint64_t seed, const std::vector<double>& pressures,
-                                const Progress& progress) {
+Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, std::uint64_t seed,
+                                const std::vector<double>& pressures, const Progress& progress) {
   StudyConfiguration configuration = asked;
   if (!configuration.found_hold)
     configuration.found_hold = hold_of(asked, drawn, pressures.front(), progress);

@@ -35,8 +35,8 @@ void warn_of_full_contact(StudyResult& result) {
   std::vector<double> pressures;
   std::size_t surfaces = 0;
   for (std::size_t k = 0; k < result.pressures.size(); ++k) {
-    const auto full = std::size_t(
-        std::ranges::count_if(result.realisations, [&](const Realisation& realisation) {
+    const auto full =
+        std::size_t(std::ranges::count_if(result.realisations, [&](const Realisation& realisation) {
           const auto& damping = realisation.of(ContactModel::bem).damping;
           return k < damping.size() && !std::isnan(damping[k].possible_amplitude);
         }));

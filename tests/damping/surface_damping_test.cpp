@@ -469,11 +469,9 @@ TEST_CASE("Steady sliding of a surface has errors that hold, and so do its dampi
     const ForceCurve curve = sweep_pressures(surface, stuck, {pressure}, sweep);
     const double critical = friction * amplitude * angular_frequency;
     const std::vector<double> velocities{0.03 * critical, 0.3 * critical};
-    const auto found = surface_sliding(surface, stuck, curve, 0,
-                                       {{amplitude, angular_frequency},
-                                        velocities,
-                                        friction,
-                                        Hold::indentation});
+    const auto found =
+        surface_sliding(surface, stuck, curve, 0,
+                        {{amplitude, angular_frequency}, velocities, friction, Hold::indentation});
     REQUIRE(found.size() == 2);
     const auto [law, center] = law_by_contacts(refined(surface, 4), stuck, pressure, amplitude, 32);
     const std::vector<SteadySliding> converged = steady_sliding(

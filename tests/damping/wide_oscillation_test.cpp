@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "damping/wide_oscillation.hpp"
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/surface/moments.hpp>
 
-#include "damping/wide_oscillation.hpp"
 #include "surface/refine.hpp"
 
 using namespace salebra;
@@ -191,8 +192,7 @@ TEST_CASE("Wide oscillations of a rough surface lose what the springs of many co
           // error of 1 % of F/K in the first touch of the finer cells changes it by 1 %.
           CHECK(found.max_force == Approx(springs.force(mean + amplitude)).epsilon(0.04));
           CHECK(found.mean_force == Approx(springs.mean_force(mean, amplitude)).epsilon(0.04));
-          const double time =
-              std::acos(std::clamp(-mean / amplitude, -1.0, 1.0)) / pi;
+          const double time = std::acos(std::clamp(-mean / amplitude, -1.0, 1.0)) / pi;
           // Below its lowest contact, at 1 % of the load, the law guesses first touch.
           CHECK(found.contact_time == Approx(time).margin(0.06));
         }
@@ -308,8 +308,7 @@ TEST_CASE("A first loading of an oscillation with a held force ends at its large
   REQUIRE(left.first_loading.yielded());
   const SpringsOfForces springs(left.surface, 0.98 * full_contact(left.surface), 100);
   const double mean = springs.at_mean_force(one.force, one.motion.normal_amplitude);
-  const double peak =
-      springs.force(mean + one.motion.normal_amplitude) / left.surface.grid.area();
+  const double peak = springs.force(mean + one.motion.normal_amplitude) / left.surface.grid.area();
   // It goes 1 % beyond, and F between contacts is linear here, an error of some per mille.
   CHECK(left.first_loading.pressure > 0.999 * peak);
   CHECK(left.first_loading.pressure < 1.03 * peak);

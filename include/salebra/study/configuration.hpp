@@ -224,8 +224,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
   keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping,
-       &S::found_hold, &S::known,
-       &S::intervals, &S::relative_error, &S::seam);
+       &S::found_hold, &S::known, &S::intervals, &S::relative_error, &S::seam);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 

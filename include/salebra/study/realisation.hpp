@@ -38,7 +38,7 @@ struct DampingPoint : Loss {
   /// fitted law.
   double small_amplitude_work = unknown;              ///< J
   double small_amplitude_damping_constant = unknown;  ///< N s/m
-  double mean_force = unknown;    ///< cycle mean of F, N
+  double mean_force = unknown;                        ///< cycle mean of F, N
   double max_force = unknown;     ///< F at the largest indentation of the cycle, N
   double contact_time = unknown;  ///< share of the period in which the bodies touch
   /// Largest normal amplitude at this load, m, if the motion presses the surface beyond full
