@@ -66,7 +66,10 @@ Json comparison_json(const StudyResult& result, const StudySolution& found) {
                  {"relative_pressure", theories.relative_pressure},
                  {"theories", theory},
                  {"spots", spots}};
-  if (!result.configuration.adhesion) answer["damping"] = damping_json(found);
+  if (!result.configuration.adhesion) {
+    answer["damping"] = damping_json(found);
+    answer["damping"]["hold"] = std::string(name_of(result.configuration.hold()));
+  }
   answer["interval_method"] = result.interval_method();
   for (const StudyModel& model : result.models())
     answer["models"][model.name] = model_json(result, model);

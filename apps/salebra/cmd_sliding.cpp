@@ -87,7 +87,8 @@ ContactSolution contact_of(const SlidingArguments& arguments, Session& session) 
   for (const double amplitude : arguments.sliding.normal_amplitude)
     largest = std::max(largest, std::abs(amplitude));
   ContactSolution contact =
-      arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest);
+      arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest,
+                            *parse_enum<Hold>(arguments.hold));
   if (contact.surface && arguments.of_slider())
     session.inform(
         "The error of the motion is not known: it is computed on a law through some loads of the "

@@ -30,6 +30,7 @@ Json damping_of_study(const StudyResult& result, const StudySolution& answer) {
   Json damping;
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
+  damping["hold"] = std::string(name_of(result.configuration.hold()));
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
   damping.add(damping_columns(result, ContactModel::bem));
@@ -94,7 +95,8 @@ std::string motion_text(const StudyConfiguration& configuration) {
     return format_quantity(value, dimension, 3);
   };
   const auto frequency = [&](double omega) {
-    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
+    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency) +
+           (configuration.hold() == Hold::force ? ", mean force held" : "");
   };
   if (const auto* drag = std::get_if<Drag>(&configuration.motion))
     return fmt::format("slow shear{} at {} under {} at {}",
@@ -123,6 +125,10 @@ std::string answer_table(const StudyResult& result, const StudySolution& answer)
   std::vector<std::string> head{"nominal p", "force", slip ? "γ, " + name : "γ no slip, " + name};
   if (sample) head.push_back("95 % interval");
   head.push_back("error");
+  const auto peak = result.damping(&DampingPoint::max_force),
+             time = result.damping(&DampingPoint::contact_time);
+  const bool wide = std::ranges::any_of(time, [](const EnsembleMean& one) { return one.mean < 1; });
+  if (wide) head.insert(head.end(), {"largest force", "in contact"});
   if (answer.slips()) head.push_back("by slip");
   if (slip) head.push_back("no slip");
   head.push_back(law);
@@ -141,6 +147,10 @@ std::string answer_table(const StudyResult& result, const StudySolution& answer)
                         ? "n/a"
                         : rounded(main.low, unit, digit) + " … " + rounded(main.high, unit, digit));
     row.push_back(std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a");
+    if (wide) {
+      row.push_back(format_quantity(peak[k].mean, Dimension::force, 3));
+      row.push_back(std::isnan(time[k].mean) ? "n/a" : fmt::format("{:.0f} %", 100 * time[k].mean));
+    }
     if (answer.slips())
       row.push_back(std::isnan(answer.slip_share[k])
                         ? "n/a"

@@ -100,10 +100,13 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
 }
 
 ContactSolution LawOptions::contact(const MaterialOptions& material, Session& session,
-                                    const std::optional<double>& hardness,
-                                    double normal_amplitude) const {
+                                    const std::optional<double>& hardness, double normal_amplitude,
+                                    Hold hold) const {
   ContactProblem asked = problem(material, session, hardness);
-  if (auto* body = std::get_if<SurfaceContact>(&asked)) body->normal_amplitude = normal_amplitude;
+  if (auto* body = std::get_if<SurfaceContact>(&asked)) {
+    body->normal_amplitude = normal_amplitude;
+    body->hold = hold;
+  }
   ContactSolution contact = solve(std::move(asked), session.context());
   session.warn(contact.warnings);
   return contact;

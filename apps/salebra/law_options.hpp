@@ -27,7 +27,8 @@ struct LawOptions {
                          const std::optional<double>& hardness) const;
   /// Solves problem() and prints the warnings of the solution.
   ContactSolution contact(const MaterialOptions& material, Session& session,
-                          const std::optional<double>& hardness, double normal_amplitude) const;
+                          const std::optional<double>& hardness, double normal_amplitude,
+                          Hold hold = Hold::automatic) const;
   /// The contact without operating points, for a motion that has its own indentations.
   /// --normal-force of the exponential law is then the force at indentation 0.
   ContactProblem problem_of_law(const MaterialOptions& material) const;

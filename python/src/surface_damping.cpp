@@ -44,6 +44,10 @@ BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const Forc
     result.tangential_stiffness = load.tangential_stiffness;
     result.force = load.force;
     result.indentation = load.indentation;
+    result.mean_force = losses[k].mean_force;
+    result.max_force = losses[k].max_force;
+    result.contact_time = losses[k].contact_time;
+    result.hold = losses[k].hold;
     result.error_estimate = losses[k].work_per_cycle_error();
     result.converged = losses[k].converged;
     curve.results.push_back({result, {}, {}});
@@ -99,7 +103,8 @@ void bind_surface_damping(nb::module_& m) {
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
-              SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
+              SurfaceContact contact{
+                  .surface = surface.surface, .material = material, .pressure = pressures->values};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
               const DampingSolution solution = solve(DampingProblem{.contact = std::move(contact),
                                                                     .motions = {described},
@@ -140,7 +145,8 @@ pressures : float or array, optional
 parameters : ContactParameters, optional
     Friction, hardness, density and the like. With a coefficient of friction the loss includes slip; with a hardness the surface is first
     loaded plastically; all of them are used to judge the assumptions.
-hold : {"indentation", "force"}
+hold : {"auto", "force", "indentation"}
+    What the oscillation keeps at all loads; "auto": the mean force if the contact lifts off at the lowest load.
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
     Boundary of the curve; `pressures` use "periodic".

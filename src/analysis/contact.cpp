@@ -13,7 +13,10 @@
 #include <salebra/surface/moments.hpp>
 #include <utility>
 
+#include "damping/max_motion.hpp"
 #include "damping/phase_quadrature.hpp"
+#include "damping/surface_law.hpp"
+#include "damping/wide_oscillation.hpp"
 #include "stoppable_law.hpp"
 
 namespace salebra {
@@ -131,17 +134,83 @@ std::vector<double> pressures_about(std::vector<double> asked) {
   return all;
 }
 
-ForceCurve curve_of_surface(const SurfaceContact& body, const Context& context) {
+SweepOptions sweep_options(const Context& context) {
   SweepOptions options;
   options.stick = true;
   options.contact.on_progress = context.on_progress;
-  ForceCurve curve =
-      sweep_pressures(body.surface, body.material, pressures_about(body.pressure), options);
+  return options;
+}
+
+void require_converged(const ForceCurve& curve, const Context& context) {
   if (context.stopped && context.stopped()) throw Interrupted("interrupted; nothing was written");
   if (const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged); lost > 0)
     throw NotConverged(
         fmt::format("`surface`: {} of {} contacts did not converge", lost, curve.samples.size()));
+}
+
+ForceCurve curve_of_surface(const SurfaceContact& body, const Context& context) {
+  ForceCurve curve = sweep_pressures(body.surface, body.material, pressures_about(body.pressure),
+                                     sweep_options(context));
+  require_converged(curve, context);
   return curve;
+}
+
+/// What the oscillation of a surface about its pressures keeps; `curve` has these pressures.
+Hold hold_of(const SurfaceContact& body, const ForceCurve& curve) {
+  ForceCurve asked = curve;
+  const double lowest = std::ranges::min(body.pressure);
+  std::erase_if(asked.samples, [&](const ForceSample& sample) {
+    return !(std::abs(sample.pressure / lowest - 1) < 1e-6);
+  });
+  return detail::hold_of(asked, body.normal_amplitude, body.hold);
+}
+
+/// Adds loads to the curve of a surface until it covers the oscillation about each pressure, down
+/// to a hundredth of the pressure and up to the largest load. The steps in ln F are those of
+/// pressures_about(), and twice as large below.
+void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
+                  const Context& context) {
+  constexpr double step = 1.35, lowest_share = 0.01;
+  const double amplitude = body.normal_amplitude, ratio = body.material.modulus_ratio();
+  const SweepOptions options = sweep_options(context);
+  const double full = detail::full_contact(body.surface);
+  std::vector<double> below;
+  for (const double pressure : body.pressure) {
+    const double force = pressure * curve.nominal_area;
+    for (;;) {
+      const TabulatedLaw law(curve, ratio);
+      const double needed = detail::mean_indentation(law, force, amplitude, hold) + amplitude;
+      const double top = law.highest_indentation();
+      if (needed <= top) break;
+      const auto next = detail::further_indentation(law, needed, full, hold);
+      if (!next)
+        require(false, "normal_amplitude", amplitude,
+                fmt::format(
+                    "m presses the surface beyond full contact at the pressure {}; at most "
+                    "{} is possible there",
+                    format_quantity(pressure, Dimension::pressure, 3),
+                    format_quantity(detail::possible_amplitude(law, force, amplitude, hold,
+                                                               hold == Hold::force ? top : full),
+                                    Dimension::length, 3)));
+      const double length = law.force(top) / law.normal_stiffness(top);
+      NormalContactState state =
+          press(body.surface, body.material.contact_modulus,
+                at_indentation(std::min(*next, top + std::log(step) * length)), options.contact);
+      curve.samples.push_back(force_sample(state, body.surface, body.material, options));
+      require_converged(curve, context);
+    }
+    const TabulatedLaw law(curve, ratio);
+    const double mean = detail::mean_indentation(law, force, amplitude, hold);
+    if (detail::reaches_below_table(law, mean - amplitude))
+      for (double one = curve.samples.front().pressure / (step * step);
+           one > lowest_share * pressure / step; one /= step * step)
+        if (below.empty() || one < below.back()) below.push_back(one);
+  }
+  if (below.empty()) return;
+  std::ranges::reverse(below);
+  const ForceCurve lower = sweep_pressures(body.surface, body.material, below, options);
+  require_converged(lower, context);
+  curve.samples.insert(curve.samples.begin(), lower.samples.begin(), lower.samples.end());
 }
 
 std::unique_ptr<const ContactLaw> law(const ExponentialContact& body, const Context& context) {
@@ -205,16 +274,28 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
   std::vector<std::string> warnings;
   if (const auto warning = warning_of_pressure(largest, body.material.contact_modulus))
     warnings.push_back(*warning);
+  if (body.hardness && body.normal_amplitude > 0)
+    body.hold = detail::hold_of(body.surface, body.material.contact_modulus,
+                                std::ranges::min(body.pressure), body.normal_amplitude, body.hold,
+                                context.on_progress);
   const std::optional<FirstLoading> first_loading =
       load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
-                 {.on_progress = context.on_progress}, body.normal_amplitude);
-  CurveContact swept{.curve = curve_of_surface(body, context),
+                 {.on_progress = context.on_progress}, body.normal_amplitude, body.hold);
+  ForceCurve curve = curve_of_surface(body, context);
+  const Hold hold = body.normal_amplitude > 0 ? hold_of(body, curve) : body.hold;
+  if (body.normal_amplitude > 0) cover_motion(curve, body, hold, context);
+  CurveContact swept{.curve = std::move(curve),
                      .modulus_ratio = body.material.modulus_ratio(),
                      .at = {ControlQuantity::pressure, body.pressure}};
   auto table = law(swept, context);
   auto points = points_on(swept.curve, swept.at, "surface");
-  return {std::move(table),        std::move(points), std::move(swept.curve),
-          std::move(body.surface), first_loading,     std::move(warnings)};
+  return {std::move(table),
+          std::move(points),
+          std::move(swept.curve),
+          std::move(body.surface),
+          first_loading,
+          std::move(warnings),
+          hold};
 }
 
 }  // namespace
@@ -279,12 +360,13 @@ IndenterState state_of(const IndenterLaw& law, double indentation) {
 
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
                                        double contact_modulus, double nominal_pressure,
-                                       NormalContactOptions contact, double normal_amplitude) {
+                                       NormalContactOptions contact, double normal_amplitude,
+                                       Hold hold) {
   if (!hardness) return {};
   require_positive(*hardness, "hardness");
   contact.hardness = *hardness;
-  ResidualSurface residual = after_first_loading(std::move(surface), contact_modulus,
-                                                 nominal_pressure, contact, normal_amplitude);
+  ResidualSurface residual = detail::loaded_by_motion(
+      std::move(surface), contact_modulus, nominal_pressure, contact, normal_amplitude, hold);
   if (residual.termination == Termination::interrupted)
     throw Interrupted("interrupted; nothing was written");
   if (!residual.converged()) throw NotConverged("`hardness`: the first loading did not converge");

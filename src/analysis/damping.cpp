@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "damping/max_motion.hpp"
+#include "damping/phase_quadrature.hpp"
 
 namespace salebra {
 namespace {
@@ -168,7 +169,17 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = solution.results[i];
+    require(
+        std::isnan(load.possible_amplitude), "normal_amplitude", detail::normal_amplitude(one),
+        fmt::format("m presses the surface beyond full contact at the pressure {}; at most {} is "
+                    "possible there",
+                    format_quantity(pressures[i], Dimension::pressure, 3),
+                    format_quantity(load.possible_amplitude, Dimension::length, 3)));
     static_cast<Loss&>(result) = load;
+    // The assumptions are judged by the law, so the result keeps the mean indentation of the law.
+    result.mean_force = load.mean_force;
+    result.max_force = load.max_force;
+    result.contact_time = load.contact_time;
     result.drop_uncertain();
     result.error_estimate = load.work_per_cycle_error();
     result.converged = load.converged;
@@ -337,14 +348,17 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   if (surface) {
     require_motion_of_surface(problem);
     surface->normal_amplitude =
-        std::visit([](const auto& m) { return m.normal_amplitude; }, problem.motions.front());
+        problem.amplitude == Amplitude::small
+            ? 0
+            : std::visit([](const auto& m) { return m.normal_amplitude; }, problem.motions.front());
+    surface->hold = problem.hold;
     pressures = surface->pressure;
     material = surface->material;
   }
   DampingSolution solution{solve(std::move(problem.contact), context)};
   const ContactLaw& law = *solution.contact.law;
   const std::vector<Case> cases = cases_of(solution.contact.points, problem);
-  problem.hold = hold_of_all(law, cases, problem.hold);
+  problem.hold = hold_of_all(law, cases, surface ? solution.contact.hold : problem.hold);
   const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
   solution.results = results_of(law, cases, options, context);
   if (const auto warning = detail::warning_of_held_indentation(solution.results))
@@ -487,9 +501,11 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   Material material;
   if (auto* surface = std::get_if<SurfaceContact>(&problem.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
+    surface->hold = problem.hold;
     material = surface->material;
   }
   DamperSolution solution{solve(std::move(problem.contact), context)};
+  if (solution.contact.surface) problem.hold = solution.contact.hold;
   const ContactLaw& law = *solution.contact.law;
   require(solution.contact.points.size() == 1, "normal_force",
           fmt::format("{} operating points", solution.contact.points.size()),

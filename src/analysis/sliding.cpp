@@ -104,8 +104,10 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
   return solution;
 }
 
-SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
+SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contact,
                       const Material& material, const Context& context) {
+  SlidingProblem problem = asked;
+  if (contact.surface) problem.hold = contact.hold;
   SlidingSolution solution = solve(problem, *contact.law, contact.points.front());
   if (!contact.surface) return solution;
   const std::size_t velocities = solution.points.size() / problem.normal_amplitude.size();

@@ -499,8 +499,10 @@ void judge_flow(Assumption& assumption) {
                                                              : Verdict::holds;
 }
 
+}  // namespace
+
 // peak_force: normal force at the largest indentation of the motion.
-Assumption plasticity_of(const ContactParameters& parameters, double peak_force) {
+Assumption detail::plasticity_of(const ContactParameters& parameters, double peak_force) {
   if (!std::isnan(parameters.first_load)) {
     // A first loading ends at the peak force of the oscillation. The law interpolates between loads
     // and gives this force with a relative accuracy of 0.02.
@@ -528,6 +530,8 @@ Assumption plasticity_of(const ContactParameters& parameters, double peak_force)
   judge_flow(assumption);
   return assumption;
 }
+
+namespace {
 
 // drag: true leaves the verdict unknown, because the effect of coupling on a slow drag was never
 // computed.
@@ -669,7 +673,7 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
   detail::require_possible(given, motion.mean, amplitude);
   const double length = length_of(law, motion.mean, amplitude);
   Assumptions assumptions;
-  assumptions.plasticity = plasticity_of(
+  assumptions.plasticity = detail::plasticity_of(
       parameters, law.force(std::min(motion.mean + amplitude, given.highest_indentation())));
   assumptions.coupling = coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr,
                                      motion.drag, parameters);

@@ -18,4 +18,8 @@ inline void judge(Assumption& assumption, bool large_is_good = false) {
                                                             : Verdict::holds;
 }
 
+/// The assumption on plasticity for the largest force of a motion. First loadings and motions give
+/// this force with a relative accuracy of 0.02.
+Assumption plasticity_of(const ContactParameters& parameters, double peak_force);
+
 }  // namespace salebra::detail

@@ -32,10 +32,34 @@ inline constexpr double stick_tolerance = 1e-3;
 // distributed errors are smaller.
 inline constexpr double stated_deviations = 1.8;
 
-/// hold_of() for a surface under a load: its indentation is measured from first touch.
-inline Hold hold_of(const ForceSample& load, double amplitude, Hold wanted) {
+/// hold_of() for a surface under the loads of a curve, so that they can be compared: the mean force
+/// if the contact lifts off at one of them. The indentation of a surface is measured from first
+/// touch.
+inline Hold hold_of(const ForceCurve& curve, double amplitude, Hold wanted) {
   if (wanted != Hold::automatic) return wanted;
-  return amplitude > load.indentation ? Hold::force : Hold::indentation;
+  const bool lifts_off = std::ranges::any_of(curve.samples, [&](const ForceSample& load) {
+    return load.converged && amplitude > load.indentation;
+  });
+  return lifts_off ? Hold::force : Hold::indentation;
+}
+
+/// The same for a surface whose lowest pressure is known, from one contact.
+inline Hold hold_of(const Surface& surface, double contact_modulus, double lowest_pressure,
+                    double amplitude, Hold wanted, const Progress& progress) {
+  if (wanted != Hold::automatic) return wanted;
+  NormalContactOptions options;
+  options.on_progress = progress;
+  const NormalContactState state =
+      press(surface, contact_modulus, at_pressure(lowest_pressure), options);
+  if (state.termination == Termination::interrupted) throw Interrupted("damping: interrupted");
+  return amplitude > state.indentation ? Hold::force : Hold::indentation;
+}
+
+/// Indentation of a periodic surface at full contact, m: the height of its highest point above the
+/// mean plane.
+inline double full_contact(const Surface& surface) {
+  const HeightStatistics heights = height_statistics(surface);
+  return heights.maximum - heights.mean;
 }
 
 /// Half the range of indentations that an oscillation about a load passes. If the mean force is
@@ -140,10 +164,14 @@ class SurfaceContacts {
     // A periodic surface at full contact has no indentation, so indentations must stay below this
     // limit.
     limit_ = std::numeric_limits<double>::infinity();
-    if (options.boundary == Boundary::free) return;
-    const HeightStatistics heights = height_statistics(surface);
-    limit_ = heights.maximum - heights.mean;
+    peak_ = full_contact(surface);
+    if (options.boundary == Boundary::periodic) limit_ = peak_;
   }
+
+  /// Indentation at full contact, m; infinity for a surface alone on a half-space.
+  double limit() const { return limit_; }
+  /// Height of the highest point above the mean plane, m, at which the indentation is 0.
+  double peak() const { return peak_; }
 
   bool usable() const { return converged_; }
 
@@ -291,7 +319,7 @@ class SurfaceContacts {
   const Surface& surface_;
   double contact_modulus_;
   NormalContactOptions options_;
-  double limit_;
+  double limit_, peak_;
   std::map<double, StiffnessSample> known_;
   // Pressures of the last two contacts; all processes agree on whether they exist.
   std::optional<Field> last_, before_;

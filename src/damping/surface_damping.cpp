@@ -21,6 +21,7 @@
 #include "spring_loss.hpp"
 #include "surface/refine.hpp"
 #include "surface_contacts.hpp"
+#include "wide_oscillation.hpp"
 
 namespace salebra {
 namespace {
@@ -34,6 +35,8 @@ using detail::StiffnessRatio;
 using detail::StiffnessSample;
 using detail::SurfaceContacts;
 using detail::VarianceScales;
+using detail::WideLoss;
+using detail::WideOscillation;
 using std::numbers::pi;
 
 constexpr int max_intervals = 32;
@@ -49,17 +52,23 @@ constexpr double widest_piece = 1.5;
 // Springs below the deepest solved contact may contribute this fraction of the loss with slip.
 constexpr double min_rest = 3e-3;
 
-/// A loss per cycle predicted by kriging, with errors, J.
+/// A loss per cycle with errors, J, predicted by kriging or from the law of the surface.
 struct KrigedWork {
   double work = Loss::unknown;
   double deviation = std::numeric_limits<double>::infinity();  // standard deviation, J
-  double ratio_error = 0, solver_error = 0;
+  double ratio_error = 0, solver_error = 0, first_touch_error = 0;
 };
+
+KrigedWork work_of(const WideLoss::Part& part) {
+  return {part.work, part.deviation, part.by_ratio, part.by_solver, part.below};
+}
 
 /// Results of one load on one grid; the loss of the base class is that without slip.
 struct GridValue : KrigedWork {
   KrigedWork with_slip;
   double relaxation_work = Loss::unknown;  // part of the loss with slip, J
+  double indentation = Loss::unknown, mean_force = Loss::unknown, max_force = Loss::unknown,
+         contact_time = Loss::unknown;
   Index points = 0;
   bool converged = false;
 };
@@ -73,13 +82,15 @@ double beyond_scatter(double change, double one, double other) {
 class Load {
  public:
   Load(const Material& material, const Oscillation& motion, const SurfaceDampingOptions& options,
-       const ForceCurve& curve, std::size_t k)
+       Hold hold, const ForceCurve& curve, std::size_t k)
       : material_(material),
         motion_(motion),
         options_(options),
         sample_(curve.samples[k]),
         ratio_(ratio_on(curve, k, material.modulus_ratio())),
-        amplitude_(detail::normal_amplitude(motion)) {
+        amplitude_(detail::normal_amplitude(motion)),
+        hold_(hold),
+        wide_(options.amplitude == Amplitude::finite && detail::is_wide(sample_, amplitude_)) {
     intervals_ = options.intervals;
     // The loss with slip under a drag depends on the distance between its turning points.
     if (!std::isnan(options.friction_coefficient) &&
@@ -94,7 +105,6 @@ class Load {
       if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
-    hold_ = detail::hold_of(sample_, amplitude_, options.hold);
     half_ = detail::half_range(sample_, amplitude_,
                                hold_ == Hold::force && options.amplitude == Amplitude::finite);
   }
@@ -106,9 +116,32 @@ class Load {
   double interval_error() const { return interval_error_; }
   double interval_error_with_slip() const { return interval_error_with_slip_; }
   bool follows_slip() const { return slip_.has_value(); }
+  Hold hold() const { return hold_; }
+  bool is_wide() const { return wide_; }
+  WideOscillation::Load load() const { return {sample_.pressure, sample_.force}; }
+  double possible_amplitude() const { return possible_amplitude_; }
   bool usable() const {
     return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.middle()) &&
            (values_.empty() || values_.back().converged);
+  }
+
+  /// Takes the result of a wide oscillation on one grid.
+  void take(const WideLoss& loss, const WideOscillation& oscillation, Index points) {
+    GridValue& value = values_.emplace_back();
+    static_cast<KrigedWork&>(value) = work_of(loss.without_slip);
+    value.with_slip = work_of(loss.with_slip);
+    value.relaxation_work = loss.relaxation_work;
+    value.indentation = loss.indentation;
+    value.mean_force = loss.mean_force;
+    value.max_force = loss.max_force;
+    value.contact_time = loss.contact_time;
+    value.points = points;
+    value.converged = loss.converged;
+    possible_amplitude_ = loss.possible_amplitude;
+    half_ = oscillation.window();
+    intervals_ = oscillation.intervals();
+    interval_error_ = loss.without_slip.by_intervals;
+    interval_error_with_slip_ = loss.with_slip.by_intervals;
   }
 
   void solve(const Surface& surface, const Progress& progress) {
@@ -211,7 +244,7 @@ class Load {
                 double mean, double center, int intervals) {
     const bool first = values_.empty(), chooses = intervals == intervals_;
     const double least = mean - amplitude_;
-    KrigedWork sum{0, 0, 0, 0};
+    KrigedWork sum{0, 0, 0, 0, 0};
     double by_half = 0, rest = 0;
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
@@ -293,7 +326,7 @@ class Load {
         samples.insert(samples.end(), inside.begin() + 1, inside.end());
         Eigen::VectorXd all(window.size() + piece_parts);
         all << window, at.tail(piece_parts);
-        sum = {0, 0, 0, 0};
+        sum = {0, 0, 0, 0, 0};
         by_half = 0;
         add_window(samples, all, KrigedStiffness(samples, all));
       } else {
@@ -384,7 +417,20 @@ class Load {
     const Eigen::VectorXd straight = weights_of_work(kriged, ratio_.straight(), mean);
     value.ratio_error = std::abs(work - kriged.estimate(straight, scales).value);
     value.solver_error = kriged.solver_error(weights);
+    value.indentation = mean;
+    value.mean_force = mean_force(kriged, mean);
+    value.max_force = kriged.force(mean + amplitude_);
+    value.contact_time = std::acos(std::clamp(-mean / amplitude_, -1.0, 1.0)) / pi;
     return value;
+  }
+
+  /// Mean of F over the phases of the oscillation about a mean indentation.
+  double mean_force(const KrigedStiffness& kriged, double mean) const {
+    constexpr int phases = 64;
+    double sum = 0;
+    for (int k = 0; k < phases; ++k)
+      sum += kriged.force(mean + amplitude_ * std::cos(pi * (k + 0.5) / phases)) / phases;
+    return sum;
   }
 
   /// The mean indentation of the oscillation, m. NaN if the contacts do not cover the oscillation.
@@ -440,11 +486,13 @@ class Load {
   const ForceSample sample_;
   StiffnessRatio ratio_;
   const double amplitude_;
-  Hold hold_ = Hold::indentation;
+  const Hold hold_;
+  const bool wide_;
   double half_ = 0;  // half the range of indentations of the contacts, m
   int intervals_ = 4;
   // Errors of the loss by the number of intervals, J.
   double interval_error_ = 0, interval_error_with_slip_ = 0;
+  double possible_amplitude_ = Loss::unknown;
   std::optional<LossOfSpring> slip_ = {};
   std::vector<StiffnessRatio::Point> of_curve_ = {};
   // Lower end of each piece below the oscillation, as depth below the mean indentation.
@@ -461,12 +509,15 @@ ErrorBudget budget_of(const KrigedWork& own, double by_intervals) {
   return {.noise = stated_deviations * own.deviation,
           .intervals = by_intervals,
           .stiffness_ratio = own.ratio_error,
-          .solver = own.solver_error};
+          .solver = own.solver_error,
+          .first_touch = own.first_touch_error};
 }
 
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
                          const SurfaceDampingOptions& options) {
   SurfaceDamping result;
+  result.hold = load.hold();
+  result.possible_amplitude = load.possible_amplitude();
   const auto& values = load.values();
   if (values.empty() || !load.usable()) return result;
   // Index in `values` of the grid with the given cells.
@@ -481,6 +532,10 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.window = load.window();
   result.intervals = load.intervals();
   result.points = value.points;
+  result.indentation = value.indentation;
+  result.mean_force = value.mean_force;
+  result.max_force = value.max_force;
+  result.contact_time = value.contact_time;
   const bool no_slip = std::isnan(options.friction_coefficient);
   const KrigedWork& described = no_slip ? value : value.with_slip;
   result.work_per_cycle = described.work;
@@ -576,9 +631,15 @@ void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
 
 /// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
 /// processes.
-void solve_on(const Surface& fine, const std::vector<Load*>& open,
+void solve_on(const Surface& fine, const std::vector<Load*>& all,
+              std::optional<WideOscillation>& oscillation, const std::vector<Load*>& wide,
               const SurfaceDampingOptions& options) {
   const Communicator& communicator = fine.communicator;
+  // The wide loads share their contacts and are one task, the last one.
+  std::vector<Load*> open = all;
+  std::erase_if(open, &Load::is_wide);
+  const std::size_t narrow = open.size();
+  if (narrow < all.size()) open.push_back(wide.front());
   // On a surface spread over processes, the messages of two simultaneous loads would be confused.
   const int wanted =
       communicator.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
@@ -599,9 +660,25 @@ void solve_on(const Surface& fine, const std::vector<Load*>& open,
   };
   // The highest loads take longest, so they are solved first.
   loop.run(static_cast<Index>(open.size()), [&](Index turn) {
-    open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
+    const std::size_t at = open.size() - 1 - static_cast<std::size_t>(turn);
+    if (at < narrow) return open[at]->solve(fine, progress);
+    const std::vector<WideLoss> losses = oscillation->on(fine, progress);
+    for (std::size_t k = 0; k < wide.size(); ++k)
+      wide[k]->take(losses[k], *oscillation, fine.grid.nx);
   });
   if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+}
+
+/// ρ at the loads of a curve whose K_t comes from stick solves; empty for a curve with K_t =
+/// (G*/E*)K.
+detail::RatioOfLoads ratios_of(const ForceCurve& curve, double modulus_ratio) {
+  std::vector<StiffnessRatio::Point> points;
+  bool solved = false;
+  for (const ForceSample& sample : curve.samples) {
+    points.push_back(detail::point_of(sample, modulus_ratio));
+    solved = solved || std::abs(points.back().ratio - 1) > 1e-9;
+  }
+  return solved ? detail::RatioOfLoads(points) : detail::RatioOfLoads();
 }
 
 }  // namespace
@@ -612,9 +689,21 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curve, options);
+  const Hold hold = detail::hold_of(curve, detail::normal_amplitude(motion), options.hold);
   std::vector<Load> loads;
   for (std::size_t k = 0; k < curve.samples.size(); ++k)
-    loads.emplace_back(material, motion, options, curve, k);
+    loads.emplace_back(material, motion, options, hold, curve, k);
+  std::vector<Load*> wide;
+  std::vector<WideOscillation::Load> wide_loads;
+  for (Load& load : loads)
+    if (load.is_wide() && load.usable()) {
+      wide.push_back(&load);
+      wide_loads.push_back(load.load());
+    }
+  std::optional<WideOscillation> oscillation;
+  if (!wide.empty())
+    oscillation.emplace(material, motion, options, hold, wide_loads,
+                        ratios_of(curve, material.modulus_ratio()));
 
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
   for (int halving = options.coarsen ? -1 : 0; halving <= halvings; ++halving) {
@@ -631,12 +720,13 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    solve_on(fine, open, options);
+    solve_on(fine, open, oscillation, wide, options);
   }
   std::vector<SurfaceDamping> results;
   for (const Load& load : loads) results.push_back(result_of(load, motion, options));
   if (!options.seam) return results;
   SurfaceDampingOptions without = options;
+  without.hold = hold;
   without.seam = {};
   without.refinements = 0;
   without.relative_error = 0;

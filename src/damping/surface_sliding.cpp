@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <span>
@@ -13,6 +14,7 @@
 
 #include "surface/refine.hpp"
 #include "surface_contacts.hpp"
+#include "wide_oscillation.hpp"
 
 namespace salebra {
 namespace {
@@ -118,16 +120,20 @@ struct OnGrid {
 class SurfaceSlidingRun {
  public:
   SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
-                    const SurfaceSlidingMotion& motion)
+                    const SurfaceSlidingMotion& motion, Hold hold)
       : material_(material),
         load_(load),
         ratio_(ratio),
         motion_(motion),
-        hold_(detail::hold_of(load, motion.normal.normal_amplitude, motion.hold)) {
+        hold_(hold),
+        oscillation_(Drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency}),
+        wide_(material, oscillation_, options_, hold, {{load.pressure, load.force}},
+              detail::RatioOfLoads({detail::point_of(load, material.modulus_ratio())})) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
 
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
+    if (is_wide()) return wide_on(surface, progress);
     NormalContactOptions contact;
     contact.on_progress = progress;
     // The force changes by about F(KH/F) over half the range H of the contacts, and its second
@@ -178,6 +184,52 @@ class SurfaceSlidingRun {
   }
 
  private:
+  /// Nine contacts with kriging describe wider oscillations than the five of surface_damping() do.
+  bool is_wide() const {
+    const double amplitude = motion_.normal.normal_amplitude;
+    return amplitude > load_.indentation || amplitude > 3 * load_.force / load_.normal_stiffness;
+  }
+
+  /// A wide oscillation uses the law of the surface from first touch to the largest force.
+  OnGrid wide_on(const Surface& surface, const Progress& progress) {
+    const std::vector<StiffnessSample> contacts = wide_.contacts(surface, progress);
+    if (const double possible = wide_.possible_amplitude(); !std::isnan(possible))
+      require(false, "normal_amplitude", motion_.normal.normal_amplitude,
+              "m presses the surface beyond full contact; at most " +
+                  format_quantity(possible, Dimension::length, 3) + " is possible");
+    if (contacts.empty()) throw NotConverged("sliding: a contact of the surface did not converge");
+    const auto states = [&](const std::vector<StiffnessSample>& some,
+                            const detail::RatioOfLoads& ratio, detail::BelowTable below) {
+      const detail::SurfaceLaw law(some, ratio, material_.modulus_ratio());
+      const detail::ContinuedLaw continued(law, below);
+      return states_of(continued, at_force(load_.force));
+    };
+    using enum detail::BelowTable;
+    OnGrid grid;
+    grid.states = states(contacts, wide_.ratio(), opens);
+    grid.numbers = numbers_of(grid.states);
+    const auto square = [&](const std::vector<SteadySliding>& other) -> ArrayXd {
+      return (numbers_of(other) - grid.numbers).square();
+    };
+    // The numbers depend most on K at the smallest indentation, where springs begin to slide.
+    const detail::SurfaceLaw law(contacts, wide_.ratio(), material_.modulus_ratio());
+    const double least =
+        detail::mean_indentation(law, load_.force, motion_.normal.normal_amplitude, hold_) -
+        motion_.normal.normal_amplitude;
+    constexpr double share = 0.01;
+    std::vector<StiffnessSample> stiffer = contacts;
+    const auto nearest = std::ranges::min_element(
+        stiffer, {}, [&](const StiffnessSample& one) { return std::abs(one.indentation - least); });
+    nearest->stiffness *= 1 + share;
+    const double deviations =
+        detail::stated_deviations * detail::WideOscillation::scatter(contacts, least) / share;
+    grid.squares = deviations * deviations * square(states(stiffer, wide_.ratio(), opens)) +
+                   square(states(detail::every_other(contacts), wide_.ratio(), opens)) +
+                   square(states(contacts, wide_.ratio().straight(), opens)) +
+                   square(states(contacts, wide_.ratio(), exponential));
+    return grid;
+  }
+
   static VectorXd stiffness_at(const KrigedStiffness& kriged, const VectorXd& positions) {
     return positions.unaryExpr([&](double position) { return kriged.stiffness(position); });
   }
@@ -188,6 +240,10 @@ class SurfaceSlidingRun {
     const OperatingPoint point = hold_ == Hold::indentation
                                      ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);
+    return states_of(law, point);
+  }
+
+  std::vector<SteadySliding> states_of(const ContactLaw& law, const OperatingPoint& point) const {
     return steady_sliding(law, point, motion_.normal, motion_.velocities,
                           motion_.friction_coefficient, {.hold = hold_, .tolerance = 1e-7});
   }
@@ -197,6 +253,9 @@ class SurfaceSlidingRun {
   StiffnessRatio ratio_;
   const SurfaceSlidingMotion& motion_;
   Hold hold_;
+  Oscillation oscillation_;
+  SurfaceDampingOptions options_ = {};
+  detail::WideOscillation wide_;
   double half_ = 0;  // half the range of indentations of the contacts, m
   VarianceScales scales_;
 };
@@ -210,17 +269,18 @@ std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
   require_positive(motion.normal.normal_amplitude, "normal_amplitude");
   const ForceSample& sample = curve.samples[load];
   const StiffnessRatio ratio = detail::ratio_on(curve, load, material.modulus_ratio());
-  SurfaceSlidingRun run(material, sample, ratio, motion);
+  ForceCurve about = curve;
+  about.samples = {sample};
+  const Hold hold = detail::hold_of(about, motion.normal.normal_amplitude, motion.hold);
+  SurfaceSlidingRun run(material, sample, ratio, motion, hold);
   const OnGrid own = run.on(surface, own_intervals, true, on_progress);
   OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
   // The error by the cells is of second order: a third of the change remains on the finer cells.
   const ArrayXd errors =
       (fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16).sqrt();
 
-  SurfaceDampingOptions options{.hold = motion.hold, .on_progress = on_progress};
+  SurfaceDampingOptions options{.hold = hold, .on_progress = on_progress};
   // The ratio K_t/K of this curve comes from contacts inside the oscillation.
-  ForceCurve about = curve;
-  about.samples = {sample};
   const Drag drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency};
   const SurfaceDamping stuck = surface_damping(surface, material, drag, about, options)[0];
 

@@ -17,6 +17,9 @@
 #include "base/memory.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
+#include "damping/phase_quadrature.hpp"
+#include "damping/surface_contacts.hpp"
+#include "damping/wide_oscillation.hpp"
 #include "surface/gather_summits.hpp"
 #include "surface/seam_step.hpp"
 
@@ -67,7 +70,9 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
   } catch (const InvalidInput&) {
     // Too few samples converged for a contact law, so no loss is known.
   }
-  DampingOptions small = configuration.damping;
+  DampingOptions options = configuration.damping;
+  options.hold = configuration.hold();
+  DampingOptions small = options;
   small.amplitude = Amplitude::small;
   std::vector<DampingPoint> points;
   for (const ForceSample& sample : model.curve.samples) {
@@ -87,9 +92,11 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
         const auto by_curvature = relaxation_damping(*curve_law, held, configuration.motion, small);
         point.small_amplitude_work = by_curvature.work_per_cycle;
         point.small_amplitude_damping_constant = by_curvature.damping_constant;
-        auto by_curve =
-            relaxation_damping(*curve_law, held, configuration.motion, configuration.damping);
+        auto by_curve = relaxation_damping(*curve_law, held, configuration.motion, options);
         if (by_curve.converged) {
+          point.mean_force = by_curve.mean_force;
+          point.max_force = by_curve.max_force;
+          point.contact_time = by_curve.contact_time;
           // First sets the loss without slip. With friction add_slip() may throw, because slip
           // reaches indentations below the curve; then only this loss without slip stays.
           static_cast<Loss&>(point) = by_curve;
@@ -123,7 +130,12 @@ void resolve_damping(ModelResult& result, const Surface& surface,
   const bool alone = detail::seeds_of(configuration).size() == 1;
   const bool known = why_loss_unknown(motion_of(configuration.motion), configuration.known).empty();
   for (std::size_t k = 0; k < resolved.size(); ++k) {
-    Loss& loss = result.damping[k];
+    DampingPoint& point = result.damping[k];
+    point.mean_force = resolved[k].mean_force;
+    point.max_force = resolved[k].max_force;
+    point.contact_time = resolved[k].contact_time;
+    point.possible_amplitude = resolved[k].possible_amplitude;
+    Loss& loss = point;
     loss = resolved[k];
     if (alone) loss.drop_uncertain();
     if (!known) loss.forget();
@@ -147,9 +159,9 @@ ResidualSurface first_loaded(Surface surface, const StudyConfiguration& configur
   options.tolerance = configuration.tolerance;
   options.hardness = configuration.known.hardness;
   options.on_progress = progress;
-  ResidualSurface residual = after_first_loading(
+  ResidualSurface residual = detail::loaded_by_motion(
       std::move(surface), configuration.material.contact_modulus, max_pressure, options,
-      std::visit([](const auto& motion) { return motion.normal_amplitude; }, configuration.motion));
+      detail::normal_amplitude(configuration.motion), configuration.hold());
   if (residual.termination == Termination::interrupted) throw Interrupted("study: interrupted");
   if (!residual.converged())
     throw NotConverged(
@@ -217,7 +229,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   const std::vector<std::uint64_t> seeds = detail::seeds_of(configuration);
   const bool alone = seeds.size() == 1, to_error = configuration.relative_error > 0;
   SurfaceDampingOptions options;
-  options.hold = configuration.damping.hold;
+  options.hold = configuration.hold();
   options.amplitude = configuration.damping.amplitude;
   options.intervals = configuration.intervals.value_or(4);
   options.choose_intervals = alone || to_error;
@@ -256,9 +268,22 @@ ModelResult& Realisation::of(ContactModel model) {
   return const_cast<ModelResult&>(std::as_const(*this).of(model));
 }
 
-Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configuration,
-                                std::uint64_t seed, const std::vector<double>& pressures,
-                                const Progress& progress) {
+Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
+             double lowest_pressure, const Progress& progress) {
+  // Only a motion of finite amplitude has a mean force other than that at rest.
+  if (configuration.damping.hold == Hold::automatic &&
+      (configuration.adhesion || configuration.damping.amplitude == Amplitude::small))
+    return Hold::indentation;
+  return detail::hold_of(surface, configuration.material.contact_modulus, lowest_pressure,
+                         detail::normal_amplitude(configuration.motion), configuration.damping.hold,
+                         progress);
+}
+
+Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, std::uint64_t seed,
+                                const std::vector<double>& pressures, const Progress& progress) {
+  StudyConfiguration configuration = asked;
+  if (!configuration.found_hold)
+    configuration.found_hold = hold_of(asked, drawn, pressures.front(), progress);
   const std::vector<StudyModel> models = models_of(configuration);
   double cost = 0, spent = 0;
   for (const StudyModel& model : models) cost += model.seconds_per_cell;

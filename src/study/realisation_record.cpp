@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 13\n";
+constexpr std::string_view magic = "salebra realisation 14\n";
 
 /// Checksum of a file; 0 if the file does not exist.
 std::uint64_t checksum_of(const std::filesystem::path& file) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/units.hpp>
@@ -15,9 +16,59 @@
 #include "base/memory.hpp"
 #include "case_run.hpp"
 #include "cost.hpp"
+#include "damping/max_motion.hpp"
 
 namespace salebra {
 namespace {
+
+/// The smallest amplitude that is possible where the motion presses a surface beyond full contact;
+/// NaN if it does not.
+double least_possible(const StudyResult& result) {
+  double least = ForceSample::unknown;
+  for (const Realisation& realisation : result.realisations)
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping)
+      least = std::fmin(least, point.possible_amplitude);
+  return least;
+}
+
+void warn_of_full_contact(StudyResult& result) {
+  std::vector<double> pressures;
+  std::size_t surfaces = 0;
+  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+    const auto full =
+        std::size_t(std::ranges::count_if(result.realisations, [&](const Realisation& realisation) {
+          const auto& damping = realisation.of(ContactModel::bem).damping;
+          return k < damping.size() && !std::isnan(damping[k].possible_amplitude);
+        }));
+    if (full == 0) continue;
+    pressures.push_back(result.pressures[k]);
+    surfaces = std::max(surfaces, full);
+  }
+  if (pressures.empty()) return;
+  const double amplitude = std::visit([](const auto& motion) { return motion.normal_amplitude; },
+                                      result.configuration.motion);
+  result.warnings.push_back(fmt::format(
+      "a normal amplitude of {} presses {} of {} surfaces beyond full contact at {} of {} "
+      "pressures, from {} on, where no loss is known; amplitudes up to {} are possible at all of "
+      "them",
+      format_quantity(amplitude, Dimension::length, 3), surfaces, result.realisations.size(),
+      pressures.size(), result.pressures.size(),
+      format_quantity(pressures.front(), Dimension::pressure, 3),
+      format_quantity(least_possible(result), Dimension::length, 3)));
+}
+
+void warn_of_held_indentation(StudyResult& result) {
+  std::vector<DampingResult> losses;
+  for (const Realisation& realisation : result.realisations)
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) {
+      DampingResult& loss = losses.emplace_back();
+      loss.hold = result.configuration.hold();
+      loss.force = point.force;
+      loss.mean_force = point.mean_force;
+    }
+  if (const auto warning = detail::warning_of_held_indentation(losses))
+    result.warnings.push_back(*warning);
+}
 
 void warn(StudyResult& result) {
   if (result.configuration.stick && !stick_solves(result.configuration)) {
@@ -65,7 +116,10 @@ void warn(StudyResult& result) {
                                                     "more pressures or give a pressure_window"));
   }
   const auto total = result.realisations.size() * result.pressures.size();
-  if (!result.configuration.adhesion && lost > 0 && std::size_t(lost) == total) {
+  warn_of_full_contact(result);
+  warn_of_held_indentation(result);
+  if (!result.configuration.adhesion && lost > 0 && std::size_t(lost) == total &&
+      std::isnan(least_possible(result))) {
     result.warnings.push_back(
         "the normal oscillation leaves the computed range of the contact at every force; reduce "
         "normal_amplitude or widen the pressures");
@@ -99,6 +153,14 @@ void require_disk_space(const StudyResult& result, const Groups& groups) {
                  groups.count() > 1 ? "the surfaces of all groups (fewer groups need less)"
                                     : "a surface of the study",
                  groups.all());
+}
+
+/// The first surface of a study, on which it depends what the motion keeps; empty if it does not.
+Surface first_surface(const StudyConfiguration& point, const StudyRun& run) {
+  if (point.damping.hold != Hold::automatic || point.adhesion ||
+      point.damping.amplitude == Amplitude::small)
+    return {};
+  return study_surface(point, detail::seeds_of(point).front(), {}, run.groups.own());
 }
 
 constexpr double min_waves_in_cell = 16, min_cells_in_wave = 8, min_spots = 50;
@@ -181,6 +243,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
       detail::require_some_of(*run.parts, points);
   });
   std::vector<StudyResult> results;
+  std::optional<Hold> hold;
   for (const StudyConfiguration& point : points) {
     StudyResult result;
     result.configuration = point;
@@ -192,11 +255,19 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     result.warnings = std::move(loads.warnings);
     if (run.on_warning) std::ranges::for_each(result.warnings, run.on_warning);
     if (!run.missing) require_disk_space(result, run.groups);
+    // Every process finds the same, because it presses the same first surface. All results of a
+    // study can then be compared.
+    const auto find_hold = [&] {
+      if (!hold) hold = hold_of(point, first_surface(point, run), result.pressures.front());
+      result.configuration.found_hold = hold;
+    };
+    if (!run.missing) find_hold();
     report.point = results.size();
     detail::run_case(result, run, report);
     report.finished += detail::seeds_of(point).size();
     const bool interrupted = result.interrupted;
     if (!result.realisations.empty()) {
+      find_hold();
       result.grid = result.realisations.front().grid;
       warn(result);
       warn_of_ensemble(result);

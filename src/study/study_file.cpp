@@ -246,7 +246,7 @@ void write_damping(Table table, const StudyResult& result) {
   std::visit([&](const auto& motion) { table.attributes(motion); }, configuration.motion);
   group.attribute("mode",
                   std::holds_alternative<Drag>(configuration.motion) ? "drag" : "equal-frequency");
-  group.attribute("hold", std::string(name_of(configuration.damping.hold)));
+  group.attribute("hold", std::string(name_of(configuration.hold())));
   group.attribute("modulus_ratio", configuration.material.modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
   if (const double friction = configuration.known.friction_coefficient; !std::isnan(friction))

@@ -6,7 +6,9 @@
 #include <salebra/base/error.hpp>
 #include <salebra/study/study_solution.hpp>
 
+#include "damping/judge.hpp"
 #include "damping/phase_quadrature.hpp"
+#include "damping/surface_law.hpp"
 
 namespace salebra {
 namespace {
@@ -49,6 +51,18 @@ ContactParameters parameters_of(const StudyResult& result) {
   return parameters;
 }
 
+/// The largest force of the motion at a pressure, in units of the largest force that the first
+/// loading of the same surface reached; the largest ratio of all surfaces. NaN without a first
+/// loading that yielded.
+double peak_over_first_load(const StudyResult& result, std::size_t k) {
+  double largest = ForceSample::unknown;
+  for (const Realisation& realisation : result.realisations)
+    if (realisation.first_loading.yielded())
+      largest = std::fmax(largest, realisation.of(ContactModel::bem).damping[k].max_force /
+                                       (realisation.first_loading.pressure * result.grid.area()));
+  return largest;
+}
+
 /// Sets the fractions of relaxation and of slip in the mean loss, if slip was computed.
 void set_shares(StudySolution& solution, const StudyResult& result) {
   const auto relaxation = result.damping(&DampingPoint::relaxation_work);
@@ -84,15 +98,31 @@ StudySolution solution_of(const StudyResult& result) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
     const ContactParameters known = parameters_of(result);
     const double amplitude = detail::normal_amplitude(configuration.motion);
+    const auto possible = result.damping(&DampingPoint::possible_amplitude),
+               peak = result.damping(&DampingPoint::max_force);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
-      ContactParameters parameters =
-          at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
+      // Where the motion presses beyond full contact there is no loss whose assumptions could be
+      // judged.
+      if (!std::isnan(possible[k].mean)) {
+        for (const AssumptionName& name : assumption_names())
+          solution.assumptions[k].*name.assumption = {.verdict = Verdict::holds};
+        continue;
+      }
+      const double mean =
+          detail::mean_indentation(law, sample.force, amplitude, configuration.hold());
+      ContactParameters parameters = at_state(known, law, &curve, mean, mean + amplitude);
       parameters.nominal_pressure = sample.pressure;
       parameters.loaded_size = known.loaded_size;
-      solution.assumptions[k] =
-          assumptions_of(law, -sample.mean_gap, configuration.motion, parameters);
+      // The mean contact pressure is at least the nominal pressure at the largest force.
+      parameters.mean_contact_pressure =
+          std::fmax(parameters.mean_contact_pressure, peak[k].mean / result.grid.area());
+      solution.assumptions[k] = assumptions_of(law, mean, configuration.motion, parameters);
+      // The mean curve ends at the largest pressure, but the motion may press further.
+      if (const double over = peak_over_first_load(result, k); !std::isnan(over))
+        solution.assumptions[k].plasticity =
+            detail::plasticity_of(parameters, over * parameters.first_load);
     }
   }
   solution.verdicts = verdicts_of(solution.assumptions, solution.slips(), result.pressures);

@@ -303,8 +303,11 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
     const double pressure =
         std::array{0.004, 0.02, 0.08}[std::size_t(seed % 3)] * 0.1 * material.contact_modulus;
     const Drag motion = drag(surface, std::array{0.01, 0.03, 0.1, 0.2}[std::size_t(seed % 4)]);
-    const SurfaceDamping result = surface_damping(
-        surface, material, motion, curve_of(surface, {pressure}, Boundary::periodic, false))[0];
+    SurfaceDampingOptions options;
+    options.hold = Hold::indentation;
+    const SurfaceDamping result =
+        surface_damping(surface, material, motion,
+                        curve_of(surface, {pressure}, Boundary::periodic, false), options)[0];
     // 33 contacts instead of 17 change it by 0.3 %.
     const double converged =
         work_by_contacts(refined(surface, 4), material, pressure, motion, 16, false);
@@ -500,8 +503,9 @@ TEST_CASE("Steady sliding of a surface has errors that hold, and so do its dampi
     const ForceCurve curve = sweep_pressures(surface, stuck, {pressure}, sweep);
     const double critical = friction * amplitude * angular_frequency;
     const std::vector<double> velocities{0.03 * critical, 0.3 * critical};
-    const auto found = surface_sliding(surface, stuck, curve, 0,
-                                       {{amplitude, angular_frequency}, velocities, friction});
+    const auto found =
+        surface_sliding(surface, stuck, curve, 0,
+                        {{amplitude, angular_frequency}, velocities, friction, Hold::indentation});
     REQUIRE(found.size() == 2);
     const auto [law, center] = law_by_contacts(refined(surface, 4), stuck, pressure, amplitude, 32);
     const std::vector<SteadySliding> converged = steady_sliding(

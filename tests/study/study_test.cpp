@@ -22,6 +22,7 @@
 #include <salebra/study/study_file.hpp>
 #include <salebra/study/study_solution.hpp>
 
+#include "io/scratch.hpp"
 #include "ranks_in_threads.hpp"
 #include "small_study.hpp"
 #include "study/estimate.hpp"
@@ -425,4 +426,33 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   StudyConfiguration hard = configuration;
   hard.known.hardness = 1e9;
   CHECK_THROWS_WITH(run_study(hard), Catch::Contains("hardness"));
+}
+
+TEST_CASE("A study keeps one mean value at all its loads, and says which", "[study]") {
+  // The lowest load lifts off under 30 nm, three rms heights; the highest would not.
+  std::string text = study_text("seeds = [1, 2]", 5);
+  const std::string amplitude = "normal_amplitude = ";
+  const std::size_t at = text.find(amplitude) + amplitude.size();
+  text.replace(at, text.find('\n', at) - at, "\"30nm\"");
+  const StudyConfiguration study = parse_study_configuration(text, "wide.toml");
+  CHECK(study.hold() == Hold::automatic);
+  const StudyResult result = run_study(study);
+  REQUIRE(result.realisations.size() == 2);
+  CHECK(result.configuration.hold() == Hold::force);
+  int known = 0;
+  for (const Realisation& realisation : result.realisations)
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) {
+      // Beyond full contact there is no loss, but an amplitude that is possible.
+      REQUIRE(std::isnan(point.work_per_cycle) == !std::isnan(point.possible_amplitude));
+      if (std::isnan(point.work_per_cycle)) continue;
+      ++known;
+      // The mean force is held at each load, and the motion presses far beyond it.
+      CHECK(point.mean_force == Approx(point.force).epsilon(1e-3));
+      CHECK(point.max_force > 2 * point.force);
+      CHECK(point.contact_time <= 1);
+    }
+  CHECK(known >= 6);
+  const Scratch scratch;
+  write_study(scratch / "wide.h5", result, {});
+  CHECK(ResultReader(scratch / "wide.h5").text_attribute("damping", "hold") == "force");
 }

@@ -56,7 +56,8 @@ struct CurveContact {
   std::string source = {};  ///< name of the curve in messages, e.g. its file
 };
 
-/// A surface, whose contact law comes from a sweep of thirteen loads about each pressure.
+/// A surface, whose contact law comes from a sweep of thirteen loads about each pressure, and of
+/// further loads as far as the oscillation presses or lifts it.
 struct SurfaceContact {
   Surface surface;
   Material material;
@@ -64,7 +65,8 @@ struct SurfaceContact {
   /// Hardness, Pa, for a plastic first loading up to the largest pressure plus an oscillation about
   /// it. Empty: elastic.
   std::optional<double> hardness = {};
-  double normal_amplitude = 0;  ///< amplitude of that oscillation, m
+  double normal_amplitude = 0;  ///< amplitude of the oscillation about each pressure, m
+  Hold hold = Hold::automatic;  ///< the mean value that this oscillation keeps
 };
 
 using ContactProblem =
@@ -78,6 +80,8 @@ struct ContactSolution {
   std::optional<Surface> surface = {};   ///< swept surface, residual after a first loading
   std::optional<FirstLoading> first_loading = {};  ///< first loading that left the residual surface
   std::vector<std::string> warnings = {};          ///< warnings: the input is valid but suspicious
+  /// For a surface with a normal amplitude: the mean value that the oscillation keeps.
+  Hold hold = Hold::automatic;
 
   /// Index of the sample of the curve whose load is nearest to the first operating point.
   std::size_t load() const;
@@ -163,7 +167,8 @@ MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double 
 /// throws   NotConverged, Interrupted, and InvalidInput wherever after_first_loading() does
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
                                        double contact_modulus, double nominal_pressure,
-                                       NormalContactOptions contact, double normal_amplitude = 0);
+                                       NormalContactOptions contact, double normal_amplitude = 0,
+                                       Hold hold = Hold::indentation);
 
 /// Returns warnings about a tabulated profile: for radii above 1 m, which are most likely in
 /// another unit, and for a table so coarse that omitting every other point changes the indentation

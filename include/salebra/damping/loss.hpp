@@ -19,8 +19,8 @@ struct ErrorBudget {
   double stiffness_ratio = unknown;  ///< change if K_t/((G*/E*)K) is linear in ln F
   double seam = 0;                   ///< from continuing a scan periodically; 0: not estimated
   double solver = unknown;           ///< from the tolerance of the contact solver
-  /// Change if the law continues exponentially below the lowest load of its curve; 0 if the motion
-  /// does not reach below it.
+  /// Change of the loss if the force law continues exponentially below the lowest solved load; 0
+  /// if no part of the motion lies there.
   double first_touch = 0;
 
   /// Square root of the sum of squares of the errors of all causes, J.
@@ -44,8 +44,9 @@ constexpr void describe(auto&& visit, std::type_identity<ErrorBudget>) {
   visit(&S::seam, Quantity{"seam_error", energy, "error of work_per_cycle by the seam of a scan"});
   visit(&S::solver,
         Quantity{"solver_error", energy, "error of work_per_cycle by the solver's tolerance"});
-  visit(&S::first_touch, Quantity{"first_touch_error", energy,
-                                  "error of work_per_cycle by the law below its lowest load"});
+  visit(&S::first_touch,
+        Quantity{"first_touch_error", energy,
+                 "error of work_per_cycle by the part of the motion below the lowest load"});
 }
 
 /// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩ (mean

@@ -36,6 +36,7 @@ constexpr bool allowed_intervals(double intervals) {
 }
 
 struct SurfaceDampingOptions {
+  /// Hold::automatic holds the mean force at all loads if the contact lifts off at one of them.
   Hold hold = Hold::automatic;
   Amplitude amplitude = Amplitude::finite;
   Boundary boundary = Boundary::periodic;
@@ -77,9 +78,17 @@ struct SurfaceDampingOptions {
 /// The loss of one surface at one load, with its numerical error.
 struct SurfaceDamping : Loss {
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
-  double window = unknown;           ///< half the range of solved indentations, m; >= u_z
+  double window = unknown;           ///< half the range of solved indentations, m
   int intervals = 0;                 ///< intervals of the oscillation
   Index points = 0;                  ///< points along x of the grid of this loss
+  double indentation = unknown;      ///< mean indentation of the cycle, m, from first touch
+  double mean_force = unknown;       ///< cycle mean of F, N
+  double max_force = unknown;        ///< F at the largest indentation of the cycle, N
+  double contact_time = unknown;     ///< share of the period in which the bodies touch
+  /// Largest normal amplitude at this load, m, if the motion presses the surface beyond full
+  /// contact and therefore has no loss; NaN otherwise.
+  double possible_amplitude = unknown;
+  Hold hold = Hold::indentation;  ///< the mean value that the oscillation keeps
   /// True if every contact converged, the cycle lies within the range of the contact, and W >= 0.
   bool converged = false;
 };
@@ -92,6 +101,13 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
   visit(&S::intervals, Kept{"intervals", "number of intervals"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::mean_force, quantity::mean_force);
+  visit(&S::max_force, quantity::max_force);
+  visit(&S::contact_time, quantity::contact_time);
+  visit(&S::possible_amplitude,
+        Kept{"possible_amplitude", "largest normal amplitude, if this one is impossible", length});
+  visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
 }
 
@@ -112,6 +128,15 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// finer grid) enter the contact within this range, it is widened until 100 do, at most to ±F/(4K),
 /// over which F changes by a factor e^{±1/4}.
 ///
+/// Wide oscillations, with u_z above 0.75 F/K or through lift-off, use one law of the surface for
+/// all loads instead. Its contacts lie at equal steps of δ between a hundredth of the lowest load
+/// and the largest force of the motions, however large this is; F and K between contacts come from
+/// a cubic polynomial of ln F through both. The steps are halved, from 16 to at most 64 intervals,
+/// as long as this changes a loss by more than 1 % (or a third of relative_error). Below its lowest
+/// contact the law opens as in TabulatedLaw.
+/// An elastic surface can be pressed up to full contact; a motion beyond it has no loss, and
+/// possible_amplitude says which motion does.
+///
 /// Errors. W is linear in the forces and stiffnesses of the contacts, so the kriging also gives its
 /// standard deviation, with variances estimated from the contacts of all grids solved so far.
 /// Noise: 1.8 standard deviations. Cells: the surface is interpolated on cells of half the size at
@@ -119,7 +144,9 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// W is the error of the finer grid, and four thirds of it that of the coarser grid. Intervals: the
 /// change of W from half as many intervals, on the given grid. Stiffness ratio: the change of W if
 /// ρ is linear in ln F. Solver: the effect on W of correcting each force for the gaps that remain
-/// in its contact.
+/// in its contact. In a wide oscillation the noise comes from the scatter of K at the smallest indentation,
+/// above which springs open, and the change of W if the law continues exponentially below its lowest
+/// contact is part of the error.
 ///
 /// With a coefficient of friction the springs slip, as in loss_with_slip(): W = −∫K_t w' dζ, where
 /// w(ζ) is the loss of a spring that touches at the depth ζ, per unit stiffness. Such a spring

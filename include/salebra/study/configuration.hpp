@@ -192,6 +192,10 @@ struct StudyConfiguration {
   std::optional<AdhesionPlan> adhesion = {};
   Oscillation motion;
   DampingOptions damping;
+  /// What the motion keeps at all pressures of all surfaces, if damping.hold is automatic:
+  /// run_ensembles() finds it from the first surface at its lowest pressure. Empty: not yet found.
+  std::optional<Hold> found_hold = {};
+  Hold hold() const { return found_hold.value_or(damping.hold); }
   /// Contact parameters (friction, hardness, density, excursion) for the loss and its assumptions.
   /// With a hardness each surface is first loaded to the largest pressure (after_first_loading()),
   /// and all results are those of the residual surface.
@@ -219,8 +223,8 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       &S::compared_models,
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
-  keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping, &S::known,
-       &S::intervals, &S::relative_error, &S::seam);
+  keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping,
+       &S::found_hold, &S::known, &S::intervals, &S::relative_error, &S::seam);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 

@@ -38,6 +38,12 @@ struct DampingPoint : Loss {
   /// fitted law.
   double small_amplitude_work = unknown;              ///< J
   double small_amplitude_damping_constant = unknown;  ///< N s/m
+  double mean_force = unknown;                        ///< cycle mean of F, N
+  double max_force = unknown;     ///< F at the largest indentation of the cycle, N
+  double contact_time = unknown;  ///< share of the period in which the bodies touch
+  /// Largest normal amplitude at this load, m, if the motion presses the surface beyond full
+  /// contact; NaN otherwise.
+  double possible_amplitude = unknown;
 
   const ErrorBudget& error_by_cause() const { return error; }
   /// Relative deviation of the loss by the fitted law from the loss without slip.
@@ -59,6 +65,11 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   visit(&S::small_amplitude_damping_constant,
         Quantity{"small_amplitude_damping_constant", damping,
                  "damping constant P/v^2, by F'' of the curve"});
+  visit(&S::mean_force, quantity::mean_force);
+  visit(&S::max_force, quantity::max_force);
+  visit(&S::contact_time, quantity::contact_time);
+  visit(&S::possible_amplitude,
+        Kept{"possible_amplitude", "largest normal amplitude, if the motion is impossible"});
   visit(&S::error_by_cause, Part{"error_by_cause", "numerical error of work_per_cycle"});
   visit(&S::deviation,
         Quantity{"deviation", dimensionless,
@@ -406,6 +417,12 @@ struct StudyLoads {
 /// Cost: that of reading the measured surface.
 StudyLoads study_loads(const StudyConfiguration& configuration,
                        const Communicator& communicator = {});
+
+/// What the motion of a study keeps at all its pressures, if its configuration leaves this open: the
+/// mean force if the surface lifts off at its lowest pressure, Pa. One contact decides.
+/// communicator: as in study_surface; the call is then collective.
+Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
+             double lowest_pressure, const Progress& progress = {});
 
 /// Computes everything for one surface: statistics, contact models, exponential law, damping.
 ///
