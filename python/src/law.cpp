@@ -70,8 +70,7 @@ highest_indentation they raise InvalidInput; below first_touch they return 0.
              const std::string& source, const std::vector<double>& conductivity,
              double contact_modulus) {
             require_that(format.value("format") != DeckFormat::fmu, "format",
-                         "fmu is an archive, which the program writes: salebra export --to fmu -o "
-                         "contact.fmu");
+                         "fmu is an archive, which only the program writes");
             // A pointer that does not own the law, which outlives this call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
             const DeckProblem problem{.contacts = {deck_contact(alias, indentation)},
