@@ -201,7 +201,7 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
     }
     const TabulatedLaw law(curve, ratio);
     const double mean = detail::mean_indentation(law, force, amplitude, hold);
-    if (detail::reaches_below_table(law, mean - amplitude))
+    if (mean - amplitude < law.lowest_indentation())
       for (double one = curve.samples.front().pressure / (step * step);
            one > lowest_share * pressure / step; one /= step * step)
         if (below.empty() || one < below.back()) below.push_back(one);
