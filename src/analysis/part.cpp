@@ -36,8 +36,8 @@ class LawOfPart final : public ContactLaw {
     return sample_->indentation_of(force / ratio_);
   }
   std::vector<double> break_points() const override { return sample_->break_points(); }
-  std::unique_ptr<const ContactLaw> coarser() const override {
-    std::shared_ptr<const ContactLaw> sample = sample_->coarser();
+  std::unique_ptr<const ContactLaw> coarser(bool odd) const override {
+    std::shared_ptr<const ContactLaw> sample = sample_->coarser(odd);
     return sample ? std::make_unique<LawOfPart>(std::move(sample), ratio_) : nullptr;
   }
 

@@ -50,7 +50,9 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     take(loss_of(law, result.indentation));
     result.power = closed_form::power(result.work_per_cycle, *drag);
     result.error = detail::error_of_table(
-        law, -std::numeric_limits<double>::infinity(), result.work_per_cycle, result.work_per_cycle,
+        law,
+        {result.indentation - drag->normal_amplitude, result.indentation + drag->normal_amplitude},
+        -std::numeric_limits<double>::infinity(), result.work_per_cycle, result.work_per_cycle,
         [&](const ContactLaw& other) {
           const double indentation =
               result.hold == Hold::force

@@ -39,8 +39,8 @@ class StoppableLaw final : public ContactLaw {
   double highest_indentation() const override { return law_->highest_indentation(); }
   double indentation_of(double force) const override { return seen().indentation_of(force); }
   std::vector<double> break_points() const override { return law_->break_points(); }
-  std::unique_ptr<const ContactLaw> coarser() const override {
-    auto law = law_->coarser();
+  std::unique_ptr<const ContactLaw> coarser(bool odd) const override {
+    auto law = law_->coarser(odd);
     return law ? std::make_unique<StoppableLaw>(std::move(law), stopped_) : nullptr;
   }
 

@@ -285,7 +285,8 @@ DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, con
     detail::require_possible(law, settled, amplitude, middle_at, result.hold);
     set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
     result.error = result.error_without_slip = detail::error_of_table(
-        law, result.indentation - amplitude, result.work_per_cycle, measure_of(result),
+        law, {result.indentation - amplitude, result.indentation + amplitude},
+        result.indentation - amplitude, result.work_per_cycle, measure_of(result),
         [&](const ContactLaw& other) {
           DampingResult by_other;
           const double middle =

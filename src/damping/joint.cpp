@@ -423,12 +423,13 @@ struct Swing {
 
 namespace {
 
-// Sets the error of a loss that comes from a table, and removes a loss that is no larger. lowest:
+// Sets the error of a loss that comes from a table, and removes a loss that is no larger. swing: range
+// of depths in which the loss arises. lowest:
 // lowest depth of the springs that slip.
-void state_error(JointLoss& loss, const ContactLaw& law, double lowest,
-                 const std::function<double(const ContactLaw&)>& work_of) {
+void state_error(JointLoss& loss, const ContactLaw& law, std::pair<double, double> swing,
+                 double lowest, const std::function<double(const ContactLaw&)>& work_of) {
   loss.work_error =
-      detail::error_of_table(law, lowest, loss.work_per_cycle, loss.work_per_cycle, work_of)
+      detail::error_of_table(law, swing, lowest, loss.work_per_cycle, loss.work_per_cycle, work_of)
           .total();
   if (!(loss.work_error >= std::abs(loss.work_per_cycle))) return;
   loss.work_per_cycle = loss.relaxation_work = loss.slip_work = loss.work_error = loss.exponent =
@@ -446,7 +447,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   detail::require_possible(law, high, 0, [&](double) { return high; });
   JointLoss loss = loss_of_springs(law, high, motion, friction_coefficient, options.tolerance);
   const double depth = (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
-  state_error(loss, law, high - depth, [&](const ContactLaw& other) {
+  state_error(loss, law, {high - depth, high}, high - depth, [&](const ContactLaw& other) {
     return loss_of_springs(other, high, motion, friction_coefficient, options.tolerance)
         .work_per_cycle;
   });
@@ -581,7 +582,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
       loss.exponent = std::log(one.work / less.work) / change;
   }
   const double deepest = mean - amplitude - loss.tangential_amplitude / one.limit;
-  state_error(loss, law, deepest, [&](const ContactLaw& other) {
+  state_error(loss, law, {deepest, mean + amplitude}, deepest, [&](const ContactLaw& other) {
     return at(other, middle_of(other, amplitude), 1).work;
   });
   loss.converged = true;

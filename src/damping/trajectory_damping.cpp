@@ -159,7 +159,8 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   TrajectoryDamping result = followed(law, path, options);
   const bool slips = std::isfinite(options.friction_coefficient);
   result.error = detail::error_of_table(
-      law, slips ? -detail::infinity : std::ranges::min(path.indentation), result.work_per_cycle,
+      law, {std::ranges::min(path.indentation), std::ranges::max(path.indentation)},
+      slips ? -detail::infinity : std::ranges::min(path.indentation), result.work_per_cycle,
       result.work_per_cycle,
       [&](const ContactLaw& other) { return followed(other, path, options).work_per_cycle; });
   return result;

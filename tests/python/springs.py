@@ -29,9 +29,12 @@ class Springs:
             raise ValueError("begin the grid where nothing touches")
 
     @staticmethod
-    def of(stiffness: Callable[[Array], Array], ratio: float, low: float, high: float, count: int = 1200) -> Springs:
-        """Springs of a law K(d) that is zero at `low`, finer where the law is small."""
+    def of(stiffness: Callable[[Array], Array], ratio: float, low: float, high: float, count: int = 1200, focus: float | None = None) -> Springs:
+        """Springs of a law K(d) that is zero at `low`, finer where the law is small; half of them above `focus`."""
         grid = low + (high - low) * np.linspace(0, 1, count) ** 1.5
+        if focus is not None and focus > low:
+            below = low + (focus - low) * np.linspace(0, 1, count // 2) ** 1.5
+            grid = np.concatenate([below, np.linspace(focus, high, count // 2)[1:]])
         values = stiffness(grid)
         values[0] = 0
         return Springs(grid, values, ratio * values)

@@ -118,9 +118,9 @@ def contacts(tmp_path_factory: pytest.TempPathFactory) -> list[Contact]:
     return [
         exponential(),
         sphere(),
-        of_surface("generated surface", generated(64, 7, rms_height=2e-7), 0.02, folder),
+        of_surface("generated surface", generated(64, 7, rms_height=2e-7), 0.01, folder),
         of_surface("filtered noise", filtered_noise(64, 3), 0.01, folder),
-        of_surface("measured surface", scan(), 0.02, folder),
+        of_surface("measured surface", scan(), 0.01, folder),
     ]
 
 
@@ -167,13 +167,14 @@ def compared(case: Case, contact: Contact, program: Callable[..., Any]) -> tuple
     options += ["--frequency", str(FREQUENCY)]
     if np.isfinite(case.friction):
         options += ["--friction-coefficient", str(case.friction)]
-    # The largest indentation: a little more than with the mean force of the exponential law.
-    reach = contact.rest + amplitude
+    # Springs up to the largest indentation. With the mean force held it follows from coarser springs up to a bound.
+    mean = contact.rest
     if case.hold == "force":
-        growth = 1 + np.sqrt(2 * np.pi * case.lengths)
-        reach = min(reach, contact.rest + contact.decay_length * (np.log(growth) + 2) + 0.2 * amplitude * (contact.name == "sphere"))
-    springs = Springs.of(contact.stiffness, RATIO, contact.touch, min(1.05 * reach - 0.05 * contact.touch, contact.highest), 1500)
-    mean = springs.held(contact.force, amplitude) if case.hold == "force" else contact.rest
+        bound = contact.rest + 1.02 * amplitude + 0.1 * contact.decay_length
+        if contact.name == "exponential law":
+            bound = contact.rest + contact.decay_length * (np.log(1 + np.sqrt(2 * np.pi * case.lengths)) + 2)
+        mean = Springs.of(contact.stiffness, RATIO, contact.touch, min(bound, contact.highest), 1500).held(contact.force, amplitude)
+    springs = Springs.of(contact.stiffness, RATIO, contact.touch, mean + amplitude, 1200, mean - 3 * amplitude)
     if case.phase is None:
         # A slow drag over 24 normal cycles and back.
         distance = 2 * np.pi * 0.05 * stroke

@@ -36,7 +36,7 @@ double ContactLaw::highest_indentation() const { return std::numeric_limits<doub
 
 std::vector<double> ContactLaw::break_points() const { return {}; }
 
-std::unique_ptr<const ContactLaw> ContactLaw::coarser() const { return nullptr; }
+std::unique_ptr<const ContactLaw> ContactLaw::coarser(bool) const { return nullptr; }
 
 std::vector<double> PowerLaw::break_points() const { return {0}; }
 
@@ -266,13 +266,13 @@ std::vector<double> TabulatedLaw::break_points() const {
   return points;
 }
 
-std::unique_ptr<const ContactLaw> TabulatedLaw::coarser() const {
+std::unique_ptr<const ContactLaw> TabulatedLaw::coarser(bool odd) const {
   const std::vector<double>& nodes = splines_->log_force.nodes();
   constexpr std::size_t least = 7;  // so that four are left
   if (nodes.size() < least) return nullptr;
   ForceCurve curve;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (i % 2 == 1 && i + 1 < nodes.size()) continue;
+    if (i % 2 == (odd ? 0 : 1) && i > 0 && i + 1 < nodes.size()) continue;
     ForceSample& sample = curve.samples.emplace_back();
     sample.indentation = nodes[i];
     sample.force = force(nodes[i]);

@@ -190,6 +190,24 @@ TEST_CASE("A table opens below its first sample like a sphere, and all its numbe
   }
 }
 
+TEST_CASE("Either half of the samples of a table makes a coarser law", "[law]") {
+  const ForceCurve curve = bent_curve(12, true);
+  const TabulatedLaw law(curve, 1);
+  const std::vector<double> nodes = law.break_points();  // first touch, then the samples
+  for (const bool odd : {false, true}) {
+    const auto coarser = law.coarser(odd);
+    REQUIRE(coarser);
+    CHECK(coarser->lowest_indentation() == law.lowest_indentation());
+    CHECK(coarser->highest_indentation() == law.highest_indentation());
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      const bool kept = i == 1 || i + 1 == nodes.size() || (i % 2 == 0) == odd;
+      CHECK((std::abs(coarser->force(nodes[i]) / law.force(nodes[i]) - 1) < 1e-12) == kept);
+    }
+  }
+  CHECK_FALSE(TabulatedLaw(bent_curve(5, true), 1).coarser(false));
+  CHECK_FALSE(PowerLaw(1, 2, 1).coarser(true));
+}
+
 TEST_CASE("A table says what it cannot use", "[law]") {
   ForceCurve curve = bent_curve(5, false);
   const TabulatedLaw law(curve, 1);

@@ -45,9 +45,9 @@ class ContactLaw {
   virtual std::vector<double> break_points() const;
 
   /// The same law through every other sample of its table, the first and the last included: what it
-  /// changes shows the error by the distances between the samples. Null for a law that is not a
-  /// table and for a table of fewer than seven samples.
-  virtual std::unique_ptr<const ContactLaw> coarser() const;
+  /// changes shows the error by the distances between the samples. odd: which half of the others
+  /// remains. Null for a law that is not a table and for a table of fewer than seven samples.
+  virtual std::unique_ptr<const ContactLaw> coarser(bool odd) const;
 
   double modulus_ratio() const { return modulus_ratio_; }
 
@@ -120,7 +120,7 @@ class TabulatedLaw final : public ContactLaw {
   double indentation_of(double force) const override;
   /// First touch and the indentations of the samples.
   std::vector<double> break_points() const override;
-  std::unique_ptr<const ContactLaw> coarser() const override;
+  std::unique_ptr<const ContactLaw> coarser(bool odd) const override;
 
  private:
   struct Splines;
