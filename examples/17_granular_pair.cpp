@@ -49,7 +49,7 @@ int main(int argc, char** argv) try {
 
   // All pairs of one kind share a table of springs; each pair that touches has its own element.
   const auto springs = std::make_shared<const LawSprings>(
-      law, law.lowest_indentation(), law.highest_indentation(),
+      law, law.first_touch(), law.highest_indentation(),
       LawSpringsOptions{.friction_coefficient = 0.3, .springs = 256});
   ContactElement history(springs);
 

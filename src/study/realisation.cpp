@@ -103,6 +103,9 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
           if (!std::isnan(configuration.known.friction_coefficient)) point.forget();
           add_slip(by_curve, *curve_law, motion_of(configuration.motion), configuration.known);
           static_cast<Loss&>(point) = by_curve;
+          // The error by the distances between the loads is not that of the surface, whose cells
+          // nobody examined here.
+          point.error = point.error_without_slip = {};
         }
       } catch (const InvalidInput&) {
         // A cycle at the first or last loads of the curve leaves its range, so the loss stays

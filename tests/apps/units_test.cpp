@@ -35,7 +35,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {angle, words("Std")},
       {inverse_length, words("Spc")},
       {pressure, words("pressure pressure_min pressure_max max_pressure reference_pressure")},
-      {force, words("force mean_force tangential_force")},
+      {force, words("force max_force mean_force tangential_force")},
       {energy,
        words("elastic_energy work_per_cycle work_per_cycle_without_slip error_estimate "
              "work_by_intervals work_by_intervals_error "
@@ -52,7 +52,8 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {frequency, words("frequency")},
       {angular_frequency, words("angular_frequency natural_frequency")},
       {dimensionless,
-       words("asked_over_lattice balance friction_coefficient contact_area_fraction damping_ratio "
+       words("asked_over_lattice balance contact_time friction_coefficient contact_area_fraction "
+             "damping_ratio "
              "dundurs force_change frequency_ratio high kurtosis logarithmic_decrement loss_factor "
              "low moment2 nayak over_stick quality_factor r_squared ratio ratio_exponential "
              "ratio_exponential_finite ratio_finite residual rms_slope significance skewness Sdq "
