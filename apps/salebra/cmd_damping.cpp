@@ -413,7 +413,8 @@ void add_damping_command(Program& program) {
                         "finite normal amplitude, or the limit of a small one; default finite")
       ->group(normal);
   add_choice<Hold>(command, "--hold", arguments->hold,
-                   "which mean value the oscillation keeps; default indentation")
+                   "which mean value the oscillation keeps; default auto: the indentation, or the "
+                   "force once the contact lifts off under a given load")
       ->group(normal);
   const std::string path = "Measured motion, and steps";
   const std::string adhesion = "Adhesion, of an indenter at rest";

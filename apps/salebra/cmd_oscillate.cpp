@@ -28,7 +28,7 @@ namespace {
 
 struct OscillateArguments {
   std::vector<std::string> shapes;
-  std::string method = "both", boundary, lateral = "held";
+  std::string method = "both", boundary, lateral = "held", hold = "auto";
   SurfaceOptions surface;
   OperatingPointOptions point;
   MaterialOptions material;
@@ -141,10 +141,16 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
     session.warn_if(warning_of_pressure(point.value, modulus));
   contact.indentation = mean_indentation(body, modulus, point);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
+  const auto settle = [&] {
+    contact.indentation = mean_indentation(contact.body, modulus, point, contact.motion,
+                                           *parse_enum<Hold>(arguments.hold), session.progress());
+  };
+  settle();
   arguments.friction.check(contact.motion, contact.indentation);
   const std::optional<double>& hardness = arguments.assumptions.hardness;
   if (!hardness) return contact;
   load_plastically(contact, point, *hardness, session.progress());
+  if (contact.first_loading->yielded()) settle();
   require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
           "--hardness", format_quantity(*hardness, Dimension::pressure),
           "is reached, and a shape that has yielded cannot be refined; leave out --relative-error");
@@ -333,6 +339,9 @@ void add_oscillate_command(Program& program) {
       "cells along x of a shape; default 128, or 64 at the start of --relative-error");
   arguments->point.add_to(command);
   arguments->motion.add_to(command);
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "which mean value the oscillation keeps; default auto: the indentation, or the "
+                   "force once the contact lifts off under a given load");
   add_quantity(command, "--direction", arguments->direction, Dimension::angle,
                "direction of the tangential motion against x; default 0");
   add_choice(command, "--lateral", arguments->lateral, {"held", "free"},

@@ -286,7 +286,8 @@ void add_sliding_command(Program& program) {
              "default 0 for a slider");
   arguments->frequency.add_to(command, "Motion", true);
   add_choice<Hold>(command, "--hold", arguments->hold,
-                   "which mean value the oscillation keeps; default indentation");
+                   "which mean value the oscillation keeps; default auto: the indentation, or the "
+                   "force once the contact lifts off under a given load");
   add_slider(command, *arguments);
   arguments->assumptions.add_to(command, false);
 }

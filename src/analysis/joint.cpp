@@ -103,6 +103,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (!std::isnan(area)) require_positive(area, "nominal_area");
   if (surface) {
     surface->normal_amplitude = std::abs(problem.normal_amplitude);
+    surface->hold = problem.hold;
     material = surface->material;
     if (!std::isnan(area)) ratio = area / surface->surface.grid.area();
     if (ratio != 1) warning = warning_of_area(area, area / ratio);

@@ -17,7 +17,9 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/shapes.hpp>
+#include <salebra/surface/moments.hpp>
 
+#include "damping/continued_law.hpp"
 #include "damping/judge.hpp"
 
 namespace salebra {
@@ -167,6 +169,46 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
                         const OperatingPoint& point) {
   if (point.control == ControlQuantity::indentation) return point.value;
   return contact_at(point, body, contact_modulus, {.boundary = body.boundary}).indentation;
+}
+
+double mean_indentation(const OscillatingBody& body, double contact_modulus,
+                        const OperatingPoint& point, const Oscillation& motion, Hold hold,
+                        const Progress& on_progress) {
+  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+  const NormalContactOptions options{.boundary = body.boundary, .on_progress = on_progress};
+  const auto at = [&](const OperatingPoint& one) {
+    return contact_at(one, body, contact_modulus, options);
+  };
+  const NormalContactState rest = at(point);
+  const bool load_given =
+      point.control == ControlQuantity::pressure || point.control == ControlQuantity::normal_force;
+  if (hold == Hold::automatic)
+    hold = load_given && amplitude > rest.indentation ? Hold::force : Hold::indentation;
+  if (hold == Hold::indentation || !(rest.force > 0)) return rest.indentation;
+  // Neighbouring contacts differ by this factor of the force.
+  constexpr double factor = 1.35, lowest = 0.01;
+  ForceCurve curve{.nominal_area = body.surface.grid.area()};
+  const auto add = [&](const NormalContactState& state) {
+    curve.samples.push_back({.indentation = state.indentation, .force = state.force});
+  };
+  for (double share = lowest; share < 1; share *= factor) add(at(at_force(share * rest.force)));
+  add(rest);
+  const double full =
+      body.boundary == Boundary::periodic
+          ? height_statistics(body.surface).maximum - height_statistics(body.surface).mean
+          : std::numeric_limits<double>::infinity();
+  for (;;) {
+    const TabulatedLaw law(curve, 1);
+    const double middle =
+        indentation_at_mean_force(detail::ContinuedLaw(law), rest.force, amplitude);
+    const double top = law.highest_indentation();
+    if (middle + amplitude <= top) return middle;
+    const double next = std::min(
+        middle + amplitude, top + std::log(factor) * law.force(top) / law.normal_stiffness(top));
+    require(next < full, "normal_amplitude", amplitude,
+            "m presses the surface beyond full contact; reduce the amplitude or the load");
+    add(at(at_indentation(next)));
+  }
 }
 
 void load_plastically(OscillationCase& contact, const OperatingPoint& point, double hardness,

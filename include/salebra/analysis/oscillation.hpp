@@ -43,6 +43,13 @@ struct OscillationCase {
 /// Returns the indentation of a body at an operating point, m. Throws NotConverged.
 double mean_indentation(const OscillatingBody& body, double contact_modulus,
                         const OperatingPoint& point);
+/// Returns the mean indentation of an oscillation about an operating point, m: that at rest, or that
+/// at which the mean force of the cycle is the force at rest (hold_of()). The latter comes from a law
+/// through contacts from 1 % of this force to the largest force of the cycle.
+/// throws  InvalidInput for a cycle beyond full contact; NotConverged, Interrupted
+double mean_indentation(const OscillatingBody& body, double contact_modulus,
+                        const OperatingPoint& point, const Oscillation& motion, Hold hold,
+                        const Progress& on_progress = {});
 
 /// Loads the contact plastically to `point`, with pressures limited to the hardness, Pa. If the
 /// surface yields, `contact` then has the residual surface, at the same load.
