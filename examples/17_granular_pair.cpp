@@ -49,8 +49,8 @@ int main(int argc, char** argv) try {
 
   // All pairs of one kind share a table of springs; each pair that touches has its own element.
   const auto springs = std::make_shared<const LawSprings>(
-      law, law.first_touch(), law.highest_indentation(),
-      LawSpringsOptions{.friction_coefficient = 0.3, .springs = 256});
+      law, law.first_touch(), law.indentation_of(2.0),
+      LawSpringsOptions{.friction_coefficient = 0.3, .springs = 1000});
   ContactElement history(springs);
 
   double overlap = history.state()[0], normal = normal_speed, shear = 0,

@@ -158,10 +158,12 @@ std::string overclosures(const std::vector<DeckRow>& rows) {
 /// conductance. Without pressure there is no conductance.
 std::string conductances_of(const Deck& deck, const DeckLaw& law, const char* row) {
   const std::vector<DeckRow> rows = rows_of(deck, law, first_clearance(deck));
+  // A law that does not begin without pressure has gained such a row.
+  const std::size_t added = law.pressure.front() > 0 ? 1 : 0;
   std::string text;
   for (std::size_t i = 0; i < rows.size(); ++i)
     text += fmt::format(fmt::runtime(row), rows[i].pressure,
-                        i > 0 ? number(law.conductance[i - 1]) : "0");
+                        i > 0 ? number(law.conductance[i - added]) : "0");
   return text;
 }
 

@@ -186,7 +186,9 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
       double peak = 0;
       const double work = loop({.tangential_amplitude = x}, friction, peak);
       CHECK(peak == Approx(joint.tangential_force).epsilon(ratios));
-      CHECK(work == Approx(joint.work_per_cycle).epsilon(ratios));
+      // A loss that the distances between the loads leave open is not known.
+      if (!std::isnan(joint.work_per_cycle))
+        CHECK(work == Approx(joint.work_per_cycle).epsilon(ratios));
     }
     // In full stick only the law matters, and K_t falls only by scatter.
     const EqualFrequency motion{
