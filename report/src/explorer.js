@@ -28,13 +28,14 @@ function monotoneCubic(x, y, given) {
 
 /**
  * Force and tangential stiffness over the indentation −‹ū›, from the means over the surfaces. Below the lowest load the contact opens like a sphere at first touch, as
- * TabulatedLaw in contact/law/law.hpp, or, to see what this changes, never opens (`exponential`). Above the highest load the law is an exponential. Null if fewer than four loads are known.
+ * TabulatedLaw in contact/law/law.hpp, or, to see what this changes, never opens (`exponential`). `half` leaves out every second load. Above the highest load the law is an exponential. Null if fewer than four loads are known.
  */
-function lawOf(point, exponential = false) {
+function lawOf(point, {exponential = false, half = -1} = {}) {
   const of = (name) => point.curve?.[name]?.bem?.mean ?? [], gap = of("mean_gap"), ratio = point.damping.modulus_ratio;
   const force = facts(point).force;
   let least = Infinity;
-  const loads = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
+  const all = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
+  const loads = all.filter((_, i) => i === 0 || i === all.length - 1 || i % 2 !== half);
   if (loads.length < 4) return null;
   const positive = (values) => loads.every((k) => values[k] > 0);
   const x = loads.map((k) => -gap[k]), normal = of("normal_stiffness"), tangential = of("tangential_stiffness");
@@ -51,7 +52,8 @@ function lawOf(point, exponential = false) {
     return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at);
   };
   // Only e^{-21} = 1e-9 of the stiffness of an exponential lies more than 21 decay lengths below its end.
-  return {low: low.at, high: high.at, touch, deepest: exponential ? low.at - 21 * low.length : touch, force: continued(forceIn, 1.5), stiffness: continued(stiffnessIn, 0.5), ratio: ratioAt, indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
+  return {low: low.at, high: high.at, touch, deepest: exponential ? low.at - 21 * low.length : touch, force: continued(forceIn, 1.5), stiffness: continued(stiffnessIn, 0.5), ratio: ratioAt, indentation: (k) => (all.includes(k) ? -gap[k] : NaN),
+    load: (k) => force[k], nodes: x, normal: (at) => forceIn(at) * logForce(at).slope};
 }
 
 /** Half of the phases of a normal cycle at which the contact is closed. */
@@ -68,10 +70,10 @@ const holdOf = (law, k, set) => (set.hold !== "auto" ? set.hold : law.indentatio
 
 /** The mean indentation: that of the load, or, if the mean force is held, the one at which the mean force of the cycle is the load. */
 function meanIndentation(law, k, set) {
-  const rest = law.indentation(k), force = law.force(rest), amplitude = set.normal_amplitude;
+  const rest = law.indentation(k), force = law.load(k), amplitude = set.normal_amplitude, range = amplitude + law.high - law.low;
   if (holdOf(law, k, set) !== "force") return rest;
-  let low = rest - amplitude, high = rest + amplitude;
-  for (let i = 0; i < 50; ++i) { const middle = (low + high) / 2; if (meanForce(law, middle, amplitude) > force) high = middle; else low = middle; }
+  let low = rest - range, high = rest + range;
+  for (let i = 0; i < 60; ++i) { const middle = (low + high) / 2; if (meanForce(law, middle, amplitude) > force) high = middle; else low = middle; }
   return low;
 }
 
@@ -258,13 +260,28 @@ function curveVerdict(point, k, law) {
     here: known(off) ? `${quantity(curve, "N s/m", 3)} by the curve and ${quantity(contacts.mean[k], "N s/m", 3)} ± ${errorPercent(error)} by contacts, in the motion of the study` : "not known at this load"};
 }
 
-/** Whether another continuation of the curve below its lowest load changes a loss, with slip or without, by more than 20 %. The library then refuses the motion, too. */
-function belowCurve(point, law, k, set, middle, motion, loss) {
-  const slips = known(motion.stretch) ? slipsDownTo(middle, motion) : Infinity;
-  if (Math.min(middle - motion.amplitude, slips) >= law.low) return false;
-  const never = lawOf(point, true), about = meanIndentation(never, k, {...set, hold: holdOf(law, k, set)}), other = losses(never, about, motionOf(never, about, set));
-  const far = (total) => Math.abs(total(other) / total(loss) - 1) > 0.2;
-  return far((one) => one.stick) || far((one) => one.relaxation + one.slip);
+/** Scatter of the slope of ln ‹K› about a motion narrower than the distance of two loads, as scatter_of_slope() in damping/table_error.cpp. */
+function scatterOfSlope({nodes, normal}, middle, amplitude) {
+  if (nodes.length < 6 || middle < nodes[0] || middle > nodes.at(-1)) return 0;
+  const found = nodes.findIndex((node) => node > middle), above = found < 0 ? nodes.length : found, end = Math.min(above, nodes.length - 1);
+  if (amplitude > nodes[end] - nodes[end - 1]) return 0;
+  const begin = Math.max(0, Math.min(above - 3, nodes.length - 6)), five = [0, 1, 2, 3, 4].map((i) => nodes.slice(begin + i, begin + i + 2)), mean = (values) => values.reduce((a, b) => a + b) / 5;
+  const slope = five.map(([low, high]) => Math.log(normal(high) / normal(low)) / (high - low)), at = five.map(([low, high]) => (low + high) / 2 - middle);
+  const rise = mean(at.map((a, i) => (a - mean(at)) * slope[i])) / mean(at.map((a) => (a - mean(at)) ** 2)), rest = slope.map((s, i) => s - mean(slope) - rise * (at[i] - mean(at)));
+  return Math.sqrt(5 * mean(rest.map((r) => r * r)) / 3) / Math.abs(mean(slope) - rise * mean(at));
+}
+
+/**
+ * What the curve does not tell about a motion, as error_of_table() in damping/table_error.cpp: the change of a loss by another continuation below the lowest load, and by half of the
+ * loads, relative to the loss. `total` picks the loss, and `lowest` is the depth that it reaches.
+ */
+function errorOfCurve(point, law, k, set, loss, middle, total, lowest) {
+  const change = (other) => {
+    const about = meanIndentation(other, k, {...set, hold: holdOf(law, k, set)});
+    return Math.abs(total(losses(other, about, motionOf(other, about, set))) / total(loss) - 1);
+  };
+  const below = lowest < law.low ? change(lawOf(point, {exponential: true})) : 0, halves = law.nodes.length < 7 ? [] : [1, 0].map((half) => lawOf(point, {half})).filter(Boolean);
+  return {below, error: Math.hypot(below, Math.max(0, ...halves.map(change)), scatterOfSlope(law, middle, set.normal_amplitude))};
 }
 
 /** The numbers of the program for a motion at load k of the mean curve. Numbers that it does not give are NaN, and `why` states the reason. */
@@ -276,12 +293,14 @@ function explore(point, k, set) {
   if (!known(middle)) return nothing("The contact at this load did not converge.");
   if (top > law.high) return nothing(`\`normal_amplitude\` presses up to about ${quantity(law.force(top), "N", 3)}, but the curve ends at ${quantity(law.force(law.high), "N", 3)}; extend the curve to this load, or reduce the amplitude.`);
   const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
-  if (belowCurve(point, law, k, set, middle, motion, loss)) return nothing(`The springs below the lowest load of the curve, ${quantity(law.force(law.low), "N", 3)}, decide on the loss; extend the curve to lower loads, or change the motion.`);
+  const doubt = (total, lowest) => errorOfCurve(point, law, k, set, loss, middle, total, lowest);
+  const stuck = doubt((one) => one.stick, middle - motion.amplitude), slid = slips ? doubt((one) => one.relaxation + one.slip, Math.min(middle - motion.amplitude, slipsDownTo(middle, motion))) : stuck;
+  if (stuck.below > 0.2 || slid.below > 0.2) return nothing(`The springs below the lowest load of the curve, ${quantity(law.force(law.low), "N", 3)}, decide on the loss; extend the curve to lower loads, or change the motion.`);
   const curve = curveVerdict(point, k, law), verdicts = [...(curve ? [curve] : []), ...verdictsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = verdicts.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
   const why = motion.drag && slips && !known(motion.excursion) ? "The loss depends on `excursion`, which is not given." : motion.drag && motion.excursion < motion.way ? "The motion is not slow: one normal cycle covers the excursion."
-    : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; run `study` with this motion." : "";
+    : slid.error > 1 ? "The loads of the curve are too far apart for this motion: the error of the loss is larger than the loss." : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; run `study` with this motion." : "";
   const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick, mean = meanForce(law, middle, motion.amplitude), growth = mean / law.force(law.indentation(k));
-  return {max_force: law.force(top), mean_force: mean, contact_time: closedHalf(law, middle, motion.amplitude) / Math.PI, work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
+  return {max_force: law.force(top), mean_force: mean, contact_time: closedHalf(law, middle, motion.amplitude) / Math.PI, work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" || stuck.error > 1 ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
     validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (holdOf(law, k, set) === "indentation" && growth > 2 ? `Holding the mean indentation raises the mean force ${number(growth, 3)} times; a preloaded machine holds the mean force.`
       : Math.min(middle - motion.amplitude, slips ? slipsDownTo(middle, motion) : Infinity) < law.low ? "Some of the loss is in parts of the contact that touch below the lowest load of the study, where the curve is continued down to first touch." : "")};
 }
