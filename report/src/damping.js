@@ -18,7 +18,7 @@ function routes(point) {
 
 function describeMotion(damping) {
   const frequency = quantity(damping.angular_frequency / (2 * Math.PI), "Hz", 3);
-  const held = damping.hold === "force" ? "mean force held" : "mean indentation held";
+  const held = {force: "mean force held", auto: "mean force held where the contact lifts off"}[damping.hold] ?? "mean indentation held";
   return damping.mode === "drag"
     ? `drag at ${quantity(damping.drag_velocity, "m/s", 3)} with a normal oscillation of ${quantity(damping.normal_amplitude, "m", 3)} at ${frequency}, ${held}`
     : `normal and tangential oscillation of ${quantity(damping.normal_amplitude, "m", 3)} and ${quantity(damping.tangential_amplitude, "m", 3)} at ${frequency}, phase ${quantity(damping.phase, "rad", 3)}, ${held}`;
@@ -60,6 +60,7 @@ function dampingFigure(parent, point) {
     caption: () => `${slipFollowed(point) ? "The loss with slip is that of the motion as described. The loss without slip" : "The loss"} is computed by three methods: the closed form of the paper with the fitted law; the same form with the curvature of the computed curve at each force; and the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude. For boundary elements, the theorem uses contacts solved within the oscillation, with bars for the numerical error; for other models it uses their force–gap curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value is shown where the curve of a model does not cover the cycle or the error is larger than the value.${estimate("small") && shown("small").mean.some((v, i) => v !== estimate("small").mean[i]) ? " Points of Eq. (15) that are far from all others are only in the table." : ""}${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
     get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, {label: "pressure", key: "pressure", unit: "Pa", values: point.pressure},
+      ...[["largest force", "max_force", "N"], ["contact time", "contact_time", "1"]].filter(([, key]) => damping[key]?.some(known)).map(([label, key, unit]) => ({label, key, unit, values: damping[key]})),
       ...Object.entries(routes(point)).flatMap(([key, route]) => (estimate(key) ? estimateColumns(route.label, `${key}_${measure}`, MEASURES[measure].unit, estimate(key)) : []))],
     plot: () => ({series: [...(damping.direct ? [{label: "direct simulation", x: direct().map((d) => d.force), y: direct().map((d) => d.value), mode: "markers", marker: {symbol: "star", size: 13, color: color("ink")},
       text: direct().map((d) => `direct simulation, ${escaped(d.file)}: ${quantity(d.value, MEASURES[measure].unit)}<br><i>F</i> = ${quantity(d.force, "N")}`)}] : []), ...Object.entries(routes(point)).flatMap(([key, route]) => {

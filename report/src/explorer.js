@@ -26,12 +26,16 @@ function monotoneCubic(x, y, given) {
   };
 }
 
-/** Force and tangential stiffness over the indentation −‹ū›, from the means over the surfaces, continued as exponentials beyond both ends. Null if fewer than four loads are known. */
-function lawOf(point) {
+/**
+ * Force and tangential stiffness over the indentation −‹ū›, from the means over the surfaces. Below the lowest load the contact opens like a sphere at first touch, as
+ * TabulatedLaw in contact/law/law.hpp, or, to see what this changes, never opens (`exponential`). `half` leaves out every second load. Above the highest load the law is an exponential. Null if fewer than four loads are known.
+ */
+function lawOf(point, {exponential = false, half = -1} = {}) {
   const of = (name) => point.curve?.[name]?.bem?.mean ?? [], gap = of("mean_gap"), ratio = point.damping.modulus_ratio;
   const force = facts(point).force;
   let least = Infinity;
-  const loads = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
+  const all = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
+  const loads = all.filter((_, i) => i === 0 || i === all.length - 1 || i % 2 !== half);
   if (loads.length < 4) return null;
   const positive = (values) => loads.every((k) => values[k] > 0);
   const x = loads.map((k) => -gap[k]), normal = of("normal_stiffness"), tangential = of("tangential_stiffness");
@@ -41,18 +45,35 @@ function lawOf(point) {
   const [low, high] = [x[0], x.at(-1)].map((at) => ({at, length: 1 / logForce(at).slope}));
   // K_t/‹K›, which decides when springs slip: from the curve if it has its own ‹K›_t; beyond the curve the value at its end.
   const ratioAt = (at) => { const inside = Math.min(high.at, Math.max(low.at, at)); return logStiffness ? stiffnessIn(inside) / (forceIn(inside) * logForce(inside).slope) : ratio; };
-  const continued = (inside) => (at) => { const end = at < low.at ? low : at > high.at ? high : null; return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at); };
-  // Only e^{-21} = 1e-9 of the stiffness lies more than 21 decay lengths below the lowest load.
-  return {low: low.at, high: high.at, deepest: low.at - 21 * low.length, force: continued(forceIn), stiffness: continued(stiffnessIn), ratio: ratioAt, indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
+  const touch = exponential ? -Infinity : low.at - 1.5 * low.length;
+  const continued = (inside, power) => (at) => {
+    if (at < low.at && !exponential) return inside(low.at) * Math.max(0, (at - touch) / (low.at - touch)) ** power;
+    const end = at < low.at ? low : at > high.at ? high : null;
+    return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at);
+  };
+  // Only e^{-21} = 1e-9 of the stiffness of an exponential lies more than 21 decay lengths below its end.
+  return {low: low.at, high: high.at, touch, deepest: exponential ? low.at - 21 * low.length : touch, force: continued(forceIn, 1.5), stiffness: continued(stiffnessIn, 0.5), ratio: ratioAt, indentation: (k) => (all.includes(k) ? -gap[k] : NaN),
+    load: (k) => force[k], nodes: x, normal: (at) => forceIn(at) * logForce(at).slope};
 }
 
+/** Half of the phases of a normal cycle at which the contact is closed. */
+const closedHalf = (law, middle, amplitude) => Math.acos(Math.min(1, Math.max(-1, (law.touch - middle) / amplitude)));
+
+/** Mean normal force of a cycle. */
+function meanForce(law, middle, amplitude) {
+  const half = closedHalf(law, middle, amplitude), forces = Array.from({length: 90}, (_, i) => law.force(middle + amplitude * Math.cos(half * (i + 0.5) / 90)));
+  return half / Math.PI * forces.reduce((a, b) => a + b) / 90;
+}
+
+/** What the oscillation holds: hold_of() of the library. */
+const holdOf = (law, k, set) => (set.hold !== "auto" ? set.hold : law.indentation(k) - set.normal_amplitude < law.touch ? "force" : "indentation");
+
 /** The mean indentation: that of the load, or, if the mean force is held, the one at which the mean force of the cycle is the load. */
-function meanIndentation(point, law, k, amplitude) {
-  const rest = law.indentation(k), force = law.force(rest);
-  if (point.damping.hold !== "force") return rest;
-  const mean = (at) => Array.from({length: 90}, (_, i) => law.force(at + amplitude * Math.cos(Math.PI * (i + 0.5) / 90))).reduce((a, b) => a + b) / 90;
-  let low = rest - amplitude, high = rest;
-  for (let i = 0; i < 50; ++i) { const middle = (low + high) / 2; if (mean(middle) > force) high = middle; else low = middle; }
+function meanIndentation(law, k, set) {
+  const rest = law.indentation(k), force = law.load(k), amplitude = set.normal_amplitude, range = amplitude + law.high - law.low;
+  if (holdOf(law, k, set) !== "force") return rest;
+  let low = rest - range, high = rest + range;
+  for (let i = 0; i < 60; ++i) { const middle = (low + high) / 2; if (meanForce(law, middle, amplitude) > force) high = middle; else low = middle; }
   return low;
 }
 
@@ -132,7 +153,7 @@ function overSprings(law, levels, loss) {
 /** Losses of a normal cycle, J: without slip, and with slip those of springs that open and of springs that stay closed. */
 function losses(law, middle, motion) {
   const {amplitude, stretch} = motion, cells = 240;
-  const opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(Math.PI * i / cells));
+  const closed = closedHalf(law, middle, amplitude), opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(closed * i / cells));
   const half = (level) => Math.acos((level - middle) / amplitude);
   const stick = overSprings(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
   if (!known(stretch)) return {stick, opened: NaN, relaxation: NaN, slip: NaN};
@@ -167,6 +188,14 @@ function slipsDownTo(middle, motion) {
   return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
 }
 
+/** Whether all springs slip except those that carry less than 5 % of the mean normal force. */
+function slides(law, middle, motion, loss) {
+  const bottom = middle - motion.amplitude, stuck = 0.05 * meanForce(law, middle, motion.amplitude), fast = motion.speed >= motion.stretch * motion.amplitude;
+  if (bottom <= law.touch) return motion.drag ? fast : law.force(middle + motion.amplitude - motion.tangential_amplitude / motion.stretch) <= stuck;
+  // Below the velocity at which opening springs never stick, they may lose more than sliding ones.
+  return law.force(motion.drag ? bottom - motion.excursion / motion.stretch / 2 : slipsDownTo(middle, motion)) <= stuck && (!motion.drag || fast || loss.slip >= loss.stick);
+}
+
 /** The regime, as Assumptions::regime in the library. */
 function regimeOf(law, middle, motion, loss) {
   if (!known(motion.stretch) || (motion.drag && !(motion.excursion >= motion.way))) return "unknown";
@@ -176,10 +205,9 @@ function regimeOf(law, middle, motion, loss) {
   if (!motion.drag) for (let part = 1; motion.tangential_amplitude * part > 0.01 * motion.stretch * motion.amplitude; part /= 1.2) ladder.push(part);
   const slips = motion.drag ? changed(loss.opened, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
     : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.opened + one.slip, one.stick); });
-  if (!slips) return "no slip";
-  // Below the velocity at which opening springs never stick, they may lose more than sliding ones.
-  const friction = !motion.drag || motion.speed >= motion.stretch * motion.amplitude || loss.slip >= loss.stick;
-  return friction && law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
+  const opens = bottom < law.touch;
+  if (slips && slides(law, middle, motion, loss)) return "sliding";
+  return opens ? "lifts off" : slips ? "partial slip" : "no slip";
 }
 
 const VERDICTS = ["holds", "doubtful", "broken", "unknown"];
@@ -202,8 +230,12 @@ function verdictsOf(point, k, law, middle, motion, loss) {
     const cost = costOfTurning(law, middle, motion.amplitude), cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
     add("slow_motion", known(cycles) ? judge(-cycles, -five, -twenty) : "unknown", cycles, five, "excursion");
   }
-  const stored = (name, column = "value") => point.assumptions[name][column][k];
-  add("plasticity", VERDICTS[stored("plasticity", "verdict")] ?? "unknown", stored("plasticity"), stored("plasticity", "onset"), "hardness");
+  const stored = (name, column = "value", at = k) => point.assumptions[name][column][at];
+  // Pressures are those of the load at which the motion of the study reaches the largest force of this motion most closely. The share of the largest force of an earlier loading needs no such detour.
+  const studied = studiedMotion(point), peak = law.force(middle + motion.amplitude), peakOf = (at) => law.force(meanIndentation(law, at, studied) + studied.normal_amplitude);
+  const off = point.pressure.map((_, at) => (known(stored("plasticity", "value", at)) ? Math.abs(Math.log(peakOf(at) / peak)) : NaN)), near = off.indexOf(Math.min(...off.filter(known))), onset = stored("plasticity", "onset");
+  const flow = onset === 1 ? stored("plasticity") * peak / peakOf(k) : near < 0 ? null : stored("plasticity", "value", near);
+  add("plasticity", !known(flow) || !known(onset) ? "unknown" : flow > 1 + (onset === 1 ? 0.02 : 0) ? "broken" : flow > onset + (onset === 1 ? 0.02 : 0) ? "doubtful" : "holds", flow, onset, "hardness");
   const waves = stored("inertia") * motion.omega / point.damping.angular_frequency, radiation = 0.58;
   const whole = 2 * point.damping.modulus_ratio * point.damping.contact_modulus * Math.max(point.surface.size_x, point.surface.size_y), stiffness = law.stiffness(middle + motion.amplitude);
   const [five, twenty] = [0.05, 0.2].map((share) => Math.min(Math.sqrt((1 + share) ** 2 - 1) / radiation,
@@ -220,40 +252,70 @@ function verdictsOf(point, k, law, middle, motion, loss) {
 function curveVerdict(point, k, law) {
   const contacts = point.solution?.damping_constant;
   if (!contacts?.error?.some(known)) return null;
-  const studied = studiedMotion(point), middle = meanIndentation(point, law, k, studied.normal_amplitude), motion = motionOf(law, middle, studied), slips = point.slip_followed === "yes";
-  const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
+  const studied = studiedMotion(point), middle = meanIndentation(law, k, studied), motion = motionOf(law, middle, studied), slips = point.slip_followed === "yes";
+  const loss = middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
   const off = curve / contacts.mean[k] - 1, error = contacts.error[k] / contacts.mean[k], beyond = Math.max(0, Math.abs(off) - error);
   const verdict = !known(beyond) ? "unknown" : beyond > 0.2 ? "broken" : beyond > 0.05 ? "doubtful" : "holds";
   return {name: "curve", verdict, assumption: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "run `study` with this motion to solve them",
     here: known(off) ? `${quantity(curve, "N s/m", 3)} by the curve and ${quantity(contacts.mean[k], "N s/m", 3)} ± ${errorPercent(error)} by contacts, in the motion of the study` : "not known at this load"};
 }
 
+/** Scatter of the slope of ln ‹K› about a motion narrower than the distance of two loads, as scatter_of_slope() in damping/table_error.cpp. */
+function scatterOfSlope({nodes, normal}, middle, amplitude) {
+  if (nodes.length < 6 || middle < nodes[0] || middle > nodes.at(-1)) return 0;
+  const found = nodes.findIndex((node) => node > middle), above = found < 0 ? nodes.length : found, end = Math.min(above, nodes.length - 1);
+  if (amplitude > nodes[end] - nodes[end - 1]) return 0;
+  const begin = Math.max(0, Math.min(above - 3, nodes.length - 6)), five = [0, 1, 2, 3, 4].map((i) => nodes.slice(begin + i, begin + i + 2)), mean = (values) => values.reduce((a, b) => a + b) / 5;
+  const slope = five.map(([low, high]) => Math.log(normal(high) / normal(low)) / (high - low)), at = five.map(([low, high]) => (low + high) / 2 - middle);
+  const rise = mean(at.map((a, i) => (a - mean(at)) * slope[i])) / mean(at.map((a) => (a - mean(at)) ** 2)), rest = slope.map((s, i) => s - mean(slope) - rise * (at[i] - mean(at)));
+  return Math.sqrt(5 * mean(rest.map((r) => r * r)) / 3) / Math.abs(mean(slope) - rise * mean(at));
+}
+
+/**
+ * What the curve does not tell about a motion, as error_of_table() in damping/table_error.cpp: the change of a loss by another continuation below the lowest load, and by half of the
+ * loads, relative to the loss. `total` picks the loss, and `lowest` is the depth that it reaches.
+ */
+function errorOfCurve(point, law, k, set, loss, middle, total, lowest) {
+  const change = (other) => {
+    const about = meanIndentation(other, k, {...set, hold: holdOf(law, k, set)});
+    return Math.abs(total(losses(other, about, motionOf(other, about, set))) / total(loss) - 1);
+  };
+  const below = lowest < law.low ? change(lawOf(point, {exponential: true})) : 0, halves = law.nodes.length < 7 ? [] : [1, 0].map((half) => lawOf(point, {half})).filter(Boolean);
+  return {below, error: Math.hypot(below, Math.max(0, ...halves.map(change)), scatterOfSlope(law, middle, set.normal_amplitude))};
+}
+
 /** The numbers of the program for a motion at load k of the mean curve. Numbers that it does not give are NaN, and `why` states the reason. */
 function explore(point, k, set) {
-  const law = lawOf(point), middle = meanIndentation(point, law, k, set.normal_amplitude), motion = motionOf(law, middle, set);
-  const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", verdicts: [], why});
+  const law = lawOf(point), middle = meanIndentation(law, k, set), motion = motionOf(law, middle, set), top = middle + motion.amplitude;
+  const nothing = (why) => ({max_force: NaN, mean_force: NaN, contact_time: NaN, work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", verdicts: [], why});
   for (const name of ["normal_amplitude", "frequency", motion.drag ? "drag_velocity" : "tangential_amplitude"]) if (!(set[name] > 0)) return nothing(`\`${name}\` must be > 0.`);
   for (const name of ["friction_coefficient", "excursion"]) if (set[name] <= 0) return nothing(`\`${name}\` must be > 0.`);
   if (!known(middle)) return nothing("The contact at this load did not converge.");
-  if (!(middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high)) return nothing("`normal_amplitude` leaves the curve’s range; reduce the amplitude or extend the curve.");
+  if (top > law.high) return nothing(`\`normal_amplitude\` presses up to about ${quantity(law.force(top), "N", 3)}, but the curve ends at ${quantity(law.force(law.high), "N", 3)}; extend the curve to this load, or reduce the amplitude.`);
   const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
+  const doubt = (total, lowest) => errorOfCurve(point, law, k, set, loss, middle, total, lowest);
+  const stuck = doubt((one) => one.stick, middle - motion.amplitude), slid = slips ? doubt((one) => one.relaxation + one.slip, Math.min(middle - motion.amplitude, slipsDownTo(middle, motion))) : stuck;
+  if (stuck.below > 0.2 || slid.below > 0.2) return nothing(`The springs below the lowest load of the curve, ${quantity(law.force(law.low), "N", 3)}, decide on the loss; extend the curve to lower loads, or change the motion.`);
   const curve = curveVerdict(point, k, law), verdicts = [...(curve ? [curve] : []), ...verdictsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = verdicts.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
   const why = motion.drag && slips && !known(motion.excursion) ? "The loss depends on `excursion`, which is not given." : motion.drag && motion.excursion < motion.way ? "The motion is not slow: one normal cycle covers the excursion."
-    : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; run `study` with this motion." : "";
-  const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick;
-  return {work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
-    validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (slipsDownTo(middle, motion) < law.low ? "Some of the slip is in parts of the contact that touch below the lowest load of the study, where the curve is continued as an exponential." : "")};
+    : slid.error > 1 ? "The loads of the curve are too far apart for this motion: the error of the loss is larger than the loss." : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; run `study` with this motion." : "";
+  const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick, mean = meanForce(law, middle, motion.amplitude), growth = mean / law.force(law.indentation(k));
+  return {max_force: law.force(top), mean_force: mean, contact_time: closedHalf(law, middle, motion.amplitude) / Math.PI, work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" || stuck.error > 1 ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
+    validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (holdOf(law, k, set) === "indentation" && growth > 2 ? `Holding the mean indentation raises the mean force ${number(growth, 3)} times; a preloaded machine holds the mean force.`
+      : Math.min(middle - motion.amplitude, slips ? slipsDownTo(middle, motion) : Infinity) < law.low ? "Some of the loss is in parts of the contact that touch below the lowest load of the study, where the curve is continued down to first touch." : "")};
 }
 
 /** The motion of the study, with its coefficient of friction and excursion if known. */
 function studiedMotion(point) {
   const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, friction_coefficient} = point.damping, frequency = angular_frequency / (2 * Math.PI);
   const excursion = point.assumptions.slip_of_closed_springs.value.find(known) ?? NaN;
-  return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion}), friction_coefficient: friction_coefficient ?? NaN};
+  return {normal_amplitude, frequency, hold: point.damping.hold ?? "indentation", ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion}), friction_coefficient: friction_coefficient ?? NaN};
 }
 
 const CONTROLS = {normal_amplitude: ["normal amplitude ‹u›_{z}", "m"], frequency: ["frequency", "Hz"], drag_velocity: ["velocity ‹v›", "m/s"], tangential_amplitude: ["tangential amplitude ‹u›_{x}", "m"], phase: ["phase", "rad"],
   excursion: ["excursion ‹X› from one turning point to the other", "m"], friction_coefficient: ["friction coefficient ‹μ›", "1"]};
+
+const HOLDS = {auto: "the mean force where it lifts off", indentation: "the mean indentation", force: "the mean force"};
 
 function explorer(body, point) {
   const studied = studiedMotion(point), set = {...studied}, panel = h("div", {class: "answer", "aria-live": "polite"});
@@ -269,7 +331,7 @@ function explorer(body, point) {
     const answer = result();
     const share = (value) => (known(value) ? `${number(100 * value, 3)}${NARROW}%` : "n/a");
     const rows = [["damping constant ‹γ›", quantity(answer.damping_constant, "N s/m", 3)], ["work per cycle ‹W›", quantity(answer.work_per_cycle, "J", 3)], ["by relaxation", share(answer.relaxation_share)], ["by slip", share(answer.slip_share)],
-      ["‹γ› without slip", quantity(answer.damping_constant_without_slip, "N s/m", 3)], ["regime", answer.regime], ["validity", answer.validity]];
+      ["‹γ› without slip", quantity(answer.damping_constant_without_slip, "N s/m", 3)], ["mean force", quantity(answer.mean_force, "N", 3)], ["largest force", quantity(answer.max_force, "N", 3)], ["contact time", share(answer.contact_time)], ["regime", answer.regime], ["validity", answer.validity]];
     panel.replaceChildren(h("dl", {}, rows.map(([name, value]) => h("div", {}, h("dt", {}, rich(name)), h("dd", {}, value)))),
       answer.why ? h("p", {class: "why"}, coded(answer.why)) : "",
       h("ul", {class: "verdicts"}, answer.verdicts.map((one) => h("li", {class: one.verdict}, h("strong", {}, `${one.verdict}: `), coded(one.assumption), one.here ? [one.verdict === "unknown" || one.name === "curve" ? "; " : "; here ", coded(one.here)] : "", one.remedy ? [" – ", coded(one.remedy)] : ""))));
@@ -277,7 +339,9 @@ function explorer(body, point) {
   };
   body.append(h("form", {class: "explorer card", onsubmit: (event) => event.preventDefault()},
     h("div", {class: "controls"}, loadChooser(point, "explore-load"), Object.keys(CONTROLS).filter((name) => name in studied).map(control),
-      h("button", {type: "button", onclick: () => { for (const name of Object.keys(studied)) { const input = document.getElementById(`explore-${name}`); input.value = input.defaultValue; } Object.assign(set, studied); soon(); }}, "Motion of the study")), panel));
+      h("label", {for: "explore-hold"}, h("span", {}, "the oscillation holds"), h("select", {id: "explore-hold", oninput: (event) => { set.hold = event.target.value; soon(); }},
+        Object.entries(HOLDS).map(([value, text]) => h("option", {value, selected: value === studied.hold ? "" : null}, text)))),
+      h("button", {type: "button", onclick: () => { for (const name of Object.keys(studied)) { const input = document.getElementById(`explore-${name}`); input.value = input.defaultValue ?? studied[name]; } Object.assign(set, studied); soon(); }}, "Motion of the study")), panel));
   const map = known(studied.drag_velocity) ? regimeMap(body, point, set) : null;
   onLoad.push(soon);
   update();
@@ -286,33 +350,37 @@ function explorer(body, point) {
 /** Regimes of the slow motion over velocity and excursion, with the borders of regime_map() of the library, and the entered motion. */
 function regimeMap(parent, point, set) {
   const borders = () => {
-    const law = lawOf(point), middle = meanIndentation(point, law, shownLoad(point), set.normal_amplitude), at = (velocity) => motionOf(law, middle, {...set, drag_velocity: velocity});
+    const law = lawOf(point), middle = meanIndentation(law, shownLoad(point), set), at = (velocity) => motionOf(law, middle, {...set, drag_velocity: velocity});
     const slips = set.friction_coefficient > 0, critical = slips ? at(1).stretch * set.normal_amplitude * 2 * Math.PI * set.frequency : set.drag_velocity;
     const ends = [Math.min(critical, set.drag_velocity) / 100, Math.max(critical, set.drag_velocity) * 10];
     const velocity = Array.from({length: 31}, (_, i) => ends[0] * (ends[1] / ends[0]) ** (i / 30)), way = velocity.map((v) => at(v).way);
     const bottom = middle - set.normal_amplitude;
     // The value at which a condition that holds at the lower end stops holding, by bisection.
     const last = (low, high, holds) => { if (!holds(low)) return 0; for (let i = 0; i < 40; ++i) { const m = Math.sqrt(low * high); if (holds(m)) low = m; else high = m; } return low; };
-    if (!slips || !(bottom >= law.low && middle + set.normal_amplitude <= law.high)) return {velocity, way, noSlip: way.map(() => null), sliding: null, critical: null};
+    const opens = bottom <= law.touch, stuck = 0.05 * meanForce(law, middle, set.normal_amplitude);
+    if (!slips || !(middle + set.normal_amplitude <= law.high)) return {velocity, way, opens: false, noSlip: way.map(() => null), sliding: way.map(() => null)};
+    // A contact that opens in every cycle slides from the critical velocity on, at any excursion.
+    if (opens) return {velocity, way, opens, noSlip: way.map(() => null), sliding: velocity.map((v, i) => (v >= critical ? way[i] : null))};
     const noSlip = velocity.map((v, i) => {
       const motion = at(v), {stick, opened} = losses(law, middle, {...motion, excursion: way[i]});
       return Math.abs(opened / stick - 1) > 0.05 ? 0 : last(way[i], 1e4 * way[i], (excursion) => slipLoss(law, middle, {...motion, excursion}) <= 0.05 * stick);
     });
     const length = (law.high - law.low) / 1e4;
-    return {velocity, way, noSlip, sliding: 2 * at(1).stretch * last(length, bottom - law.deepest, (depth) => law.force(bottom - depth) > 0.05 * law.force(bottom)), critical};
+    const sliding = 2 * at(1).stretch * last(length, bottom - law.deepest, (depth) => law.force(bottom - depth) > stuck);
+    return {velocity, way, opens, noSlip, sliding: velocity.map(() => sliding)};
   };
   const mine = () => explore(point, shownLoad(point), set);
   return addFigure(parent, {
     id: "regime-map", title: "Regimes of the slow motion", height: 420,
     alt: () => `Map of regimes over velocity and excursion at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)}; the motion entered, ${quantity(set.drag_velocity, "m/s", 3)} over ${quantity(set.excursion, "m", 3)}: ${mine().regime}.`,
-    caption: () => `Regimes at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)} for the normal oscillation and the coefficient of friction entered above. No slip: slip changes the loss by less than 5${NARROW}%. Sliding: less than 5${NARROW}% of the minimum normal force is on parts that always stick. Grey: the motion is not slow, because one normal cycle covers the excursion.`,
+    caption: () => `Regimes at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)} for the normal oscillation and the coefficient of friction entered above. No slip: slip changes the loss by less than 5${NARROW}%. Sliding: less than 5${NARROW}% of the mean normal force is on parts that always stick. Lifts off: the contact opens in every cycle and does not slide as a whole. Grey: the motion is not slow, because one normal cycle covers the excursion.`,
     axes: {x: {label: "velocity ‹v›", unit: "m/s", log: true, fixed: true, values: () => [set.drag_velocity]}, y: {label: "excursion ‹X›", unit: "m", log: true, fixed: true, values: () => [known(set.excursion) ? set.excursion : set.normal_amplitude]}},
-    columns: () => { const b = borders(); return [{label: "velocity", key: "velocity", unit: "m/s", values: b.velocity}, {label: "distance per normal cycle", key: "way_per_cycle", unit: "m", values: b.way}, {label: "largest excursion without slip", key: "no_slip_excursion", unit: "m", values: b.noSlip}, {label: "smallest excursion with sliding", key: "sliding_excursion", unit: "m", values: b.velocity.map(() => b.sliding)}]; },
+    columns: () => { const b = borders(); return [{label: "velocity", key: "velocity", unit: "m/s", values: b.velocity}, {label: "distance per normal cycle", key: "way_per_cycle", unit: "m", values: b.way}, {label: "largest excursion without slip", key: "no_slip_excursion", unit: "m", values: b.noSlip}, {label: "smallest excursion with sliding", key: "sliding_excursion", unit: "m", values: b.sliding}]; },
     plot: () => {
-      const b = borders(), x = set.excursion, floor = Math.min(b.way[0], x || Infinity) / 3, top = Math.max(b.way.at(-1), b.sliding ?? 0, x || 0) * 3;
-      const first = b.way, second = first.map((w, i) => Math.max(w, b.noSlip[i] ?? 0)), third = second.map((s) => Math.max(s, b.sliding ?? s)), last = first.map(() => top);
+      const b = borders(), x = set.excursion, floor = Math.min(b.way[0], x || Infinity) / 3, top = Math.max(b.way.at(-1), ...b.sliding, x || 0) * 3;
+      const first = b.way, second = first.map((w, i) => Math.max(w, b.noSlip[i] ?? 0)), last = first.map(() => top), third = second.map((s, i) => Math.max(s, b.sliding[i] ?? top));
       const region = (label, from, to, paint) => ({label, x: [...b.velocity, ...[...b.velocity].reverse()], y: [...from, ...[...to].reverse()], fill: "toself", mode: "none", fillcolor: paint, hoverinfo: "skip"});
-      return {series: [region("not slow", first.map(() => floor), first, faint("slate", 0.35)), ...(b.sliding ? [region("no slip", first, second, faint("green", 0.45)), region("partial slip", second, third, faint("blue", 0.35)), region("sliding", third, last, faint("vermilion", 0.4))] : []),
+      return {series: [region("not slow", first.map(() => floor), first, faint("slate", 0.35)), ...(b.opens || b.sliding.some(known) ? [b.opens ? region("lifts off", first, third, faint("ochre", 0.4)) : region("no slip", first, second, faint("green", 0.45)), ...(b.opens ? [] : [region("partial slip", second, third, faint("blue", 0.35))]), region("sliding", third, last, faint("vermilion", 0.4))] : []),
         ...(known(x) ? [{label: "motion entered", x: [set.drag_velocity], y: [x], mode: "markers", marker: {symbol: "star", size: 15, color: color("ink")}, text: [`v = ${quantity(set.drag_velocity, "m/s", 3)}, X = ${quantity(x, "m", 3)}: ${mine().regime}`]}] : [])]};
     },
   });

@@ -21,7 +21,8 @@ const finding = (title, value, details, doubt) => h("div", {class: doubt ? "find
 function cards(point) {
   const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
   if (point.validity) found.push(finding("Validity", point.validity, ["assumptions below, worst first"], doubt));
-  if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the chosen load"], point.solution.regime[shownLoad(point)] === "sliding"));
+  const {max_force: most, contact_time: closed} = point.damping ?? {}, at = shownLoad(point);
+  if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the chosen load", known(most?.[at]) && `largest force ${quantity(most[at], "N", 3)}`, known(closed?.[at]) && closed[at] < 1 && `in contact during ${number(100 * closed[at], 3)}${NARROW}% of the cycle`], point.solution.regime[shownLoad(point)] === "sliding"));
   if (known(fit?.decay_length?.mean)) {
     const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
     found.push(finding(fit.fair === 0 ? "Force law ‹F› ∝ exp(−‹ū›/‹l›), a poor description" : "Force law ‹F› ∝ exp(−‹ū›/‹l›)", `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`,

@@ -369,6 +369,10 @@ class Point {
           found[name] = std::move(means[column]);
       add(json, route.name.c_str(), std::move(found));
     }
+    for (const char* name : {"max_force", "contact_time"})
+      if (const std::string means = std::string("damping/ensemble_") + name + "_mean";
+          has(means) && bem() < models_.size())
+        json[name] = list(part(means, bem(), pressures_.size()));
     if (const std::string errors =
             "damping/ensemble_" + without_slip("damping_constant") + "_error_mean";
         has(errors) && bem() < models_.size() && json.contains("curve"))

@@ -99,7 +99,11 @@ std::string damping(const Json& point) {
   const bool slips = followed && followed->text() == "yes";
   std::vector<std::string> heads{"pressure", "force", "closed form, fitted l", "without slip"};
   const Json* regimes = find(point, {"solution", "regime"});
+  const Json* max_forces = find(point, {"damping", "max_force"});
+  const Json* contact_times = find(point, {"damping", "contact_time"});
   if (slips) heads.push_back("with slip");
+  if (max_forces) heads.push_back("largest force");
+  if (contact_times) heads.push_back("contact time");
   if (regimes) heads.push_back("regime");
   std::string text = "<table><caption>Damping constant by boundary elements</caption><thead>" +
                      row(heads, "th") + "</thead><tbody>";
@@ -111,6 +115,8 @@ std::string damping(const Json& point) {
     if (slips)
       cells.push_back(
           shown(at(find(point, {"solution", "damping_constant", "mean"}), i), Dimension::damping));
+    if (max_forces) cells.push_back(shown(at(max_forces, i), Dimension::force));
+    if (contact_times) cells.push_back(shown(at(contact_times, i), Dimension::dimensionless));
     if (const Json* regime = at(regimes, i)) cells.push_back(regime->text());
     text += row(cells, "td");
   }
