@@ -187,7 +187,8 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
   if (hold == Hold::indentation || !(rest.force > 0)) return rest.indentation;
   // Neighbouring contacts differ by this factor of the force.
   constexpr double factor = 1.35, lowest = 0.01;
-  ForceCurve curve{.nominal_area = body.surface.grid.area()};
+  ForceCurve curve;
+  curve.nominal_area = body.surface.grid.area();
   const auto add = [&](const NormalContactState& state) {
     curve.samples.push_back({.indentation = state.indentation, .force = state.force});
   };
