@@ -172,7 +172,8 @@ void bind_steady_sliding(nb::module_& m) {
         const OperatingPoint point = operating_point_of(indentation, force);
         const SteadySliding sliding =
             unlocked([&] { return steady_sliding(law, point, motion, friction_coefficient); });
-        warn_of_held_indentation(law, sliding.indentation, sliding.mean_force);
+        if (hold_of(law, point, motion.normal_amplitude) == Hold::indentation)
+          warn_of_held_indentation(law, sliding.indentation, sliding.mean_force);
         return sliding;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("friction_coefficient"),

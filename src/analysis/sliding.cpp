@@ -73,8 +73,12 @@ SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& l
 
 }  // namespace
 
-SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
+SlidingSolution solve(const SlidingProblem& asked, const ContactLaw& law,
                       const OperatingPoint& point) {
+  SlidingProblem problem = asked;
+  // All amplitudes keep the same mean value, so that they can be compared.
+  if (!problem.normal_amplitude.empty())
+    problem.hold = hold_of(law, point, std::ranges::max(problem.normal_amplitude), problem.hold);
   SlidingSolution solution;
   std::vector<SlidingPoint>& points = solution.points;
   std::vector<DampingResult> means;
@@ -85,6 +89,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
     DampingResult& mean = means.emplace_back();
     mean.force = law.force(state.indentation);
     mean.mean_force = state.mean_force;
+    mean.hold = problem.hold;
     if (const auto lost = std::ranges::count_if(
             found, [](const SlidingPoint& point) { return !point.state.converged; });
         lost > 0)
