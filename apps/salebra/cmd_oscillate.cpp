@@ -150,7 +150,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   const std::optional<double>& hardness = arguments.assumptions.hardness;
   if (!hardness) return contact;
   load_plastically(contact, point, *hardness, session.progress());
-  if (contact.first_loading->yielded()) settle();
+  if (contact.first_loading->yielded() && point.load_given()) settle();
   require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
           "--hardness", format_quantity(*hardness, Dimension::pressure),
           "is reached, and a shape that has yielded cannot be refined; leave out --relative-error");
