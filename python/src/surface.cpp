@@ -339,9 +339,9 @@ void bind_lay(nb::module_& m) {
       m, "SurfaceLay",
       "The lay of a surface, i.e. the direction of its grooves, with the rms slopes along and "
       "across "
-      "it; NaN if unknown. The lay is that of a ground surface if `found` is true.")
+      "it; NaN if unknown. The lay is that of a ground surface if `has_lay` is true.")
       .def("in_words", &lay_in_words,
-           "Text such as \"ground-like: lay 12° from x, 6 to 1\"; empty if `found` is false.");
+           "Text such as \"ground-like: lay 12° from x, 6 to 1\"; empty if `has_lay` is false.");
   m.def("surface_lay", &of_surface<surface_lay>, nb::arg("surface"),
         R"(Finds the lay of a surface from the mean products of its gradient.
 

@@ -22,10 +22,10 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double least_ratio = 1.5;     ///< of a lay
-constexpr double most_skewness = 0.5;   ///< of heights that count as Gaussian
-constexpr double cells_of_wave = 4;     ///< shortest wave, in cells of the coarser axis
-constexpr Index least_points = 16;      ///< along each axis
+constexpr double least_ratio = 1.5;    ///< of a lay
+constexpr double most_skewness = 0.5;  ///< of heights that count as Gaussian
+constexpr double cells_of_wave = 4;    ///< shortest wave, in cells of the coarser axis
+constexpr Index least_points = 16;     ///< along each axis
 /// 99 % of the lengths of a vector of two normal variables of unit variance are below this,
 /// √(−2 ln 0.01).
 constexpr double significant_length = 3.035;
@@ -41,8 +41,8 @@ struct Gradients {
 template <std::size_t count, class Term>
 std::array<double, count> sum_modes(const PowerSpectrum& spectrum, double limit, const Term& term) {
   const RowPartition columns = spectrum.columns();
-  const std::vector<double> sums = parallel::sum_blocks(
-      columns, count, [&](Index begin, Index end, std::span<double> of_block) {
+  const std::vector<double> sums =
+      parallel::sum_blocks(columns, count, [&](Index begin, Index end, std::span<double> of_block) {
         for (Index i = 0; i < spectrum.grid.nx; ++i) {
           const double qx = spectrum.wavenumber_x(i);
           if (std::abs(qx) > limit) continue;
@@ -102,16 +102,15 @@ Regions gradients_of_regions(const Surface& surface, double across) {
   const double start = std::min(along_x, 0.0) * static_cast<double>(grid.nx) +
                        std::min(along_y, 0.0) * static_cast<double>(grid.ny);
   const std::vector<double> sums = parallel::sum_blocks(
-      partition, 3 * (part_count + strip_count), [&](Index begin, Index end, std::span<double> of_block) {
+      partition, 3 * (part_count + strip_count),
+      [&](Index begin, Index end, std::span<double> of_block) {
         for (Index ix = begin; ix < end; ++ix) {
           const double *here = rows[ix], *next = rows[ix + 1];
           if (!next) continue;
           const Index row = (partition.begin() + ix) * parts_per_side / grid.nx;
           for (Index iy = 0; iy + 1 < grid.ny; ++iy) {
-            const double x =
-                (next[iy] + next[iy + 1] - here[iy] - here[iy + 1]) / (2 * grid.dx());
-            const double y =
-                (here[iy + 1] + next[iy + 1] - here[iy] - next[iy]) / (2 * grid.dy());
+            const double x = (next[iy] + next[iy + 1] - here[iy] - here[iy + 1]) / (2 * grid.dx());
+            const double y = (here[iy + 1] + next[iy + 1] - here[iy] - next[iy]) / (2 * grid.dy());
             const auto part =
                 static_cast<std::size_t>(row * parts_per_side + iy * parts_per_side / grid.ny);
             const double distance = (static_cast<double>(partition.begin() + ix) + 0.5) * along_x +
@@ -152,8 +151,8 @@ double significance_of(const std::array<Gradients, count>& regions) {
 /// How well the regions of a surface agree about its lay.
 struct Scatter {
   double significance = 0;  ///< see significance_of(), the least of parts and of strips
-  double log_ratio = 0;  ///< standard error of the logarithm of the quotient of the eigenvalues
-  double angle = 0;      ///< standard error of the direction, rad
+  double log_ratio = 0;     ///< standard error of the logarithm of the quotient of the eigenvalues
+  double angle = 0;         ///< standard error of the direction, rad
 };
 
 /// The scatter between the parts of a surface, which are taken as independent: right if a part has
@@ -178,9 +177,8 @@ Scatter scatter_of_parts(const Surface& surface, double across) {
   double log_ratio = 0, angle = 0;
   for (const Turned& part : parts) {
     log_ratio += std::pow(part.steep / total.steep - part.flat / total.flat, 2);
-    angle += std::pow(part.both - total.both * (part.steep + part.flat) /
-                                      (total.steep + total.flat),
-                      2);
+    angle +=
+        std::pow(part.both - total.both * (part.steep + part.flat) / (total.steep + total.flat), 2);
   }
   const double correction = static_cast<double>(part_count) / static_cast<double>(part_count - 1);
   return {std::min(significance_of(regions.parts), significance_of(regions.strips)),
@@ -236,9 +234,9 @@ SurfaceLay surface_lay(const Surface& surface) {
   lay.ratio = 1 / std::sqrt(square);
   const double flat_error = std::sqrt(variances[of_flat]);
   if (flat > 2 * flat_error) {
-    const double log_ratio = std::sqrt(variances[of_steep] / (steep * steep) +
-                                       variances[of_flat] / (flat * flat) -
-                                       2 * variances[of_both] / (steep * flat));
+    const double log_ratio =
+        std::sqrt(variances[of_steep] / (steep * steep) + variances[of_flat] / (flat * flat) -
+                  2 * variances[of_both] / (steep * flat));
     const double factor = std::exp(two_sided / 2 * std::hypot(log_ratio, parts.log_ratio));
     lay.ratio_low = lay.ratio / factor;
     lay.ratio_high = lay.ratio * factor;
@@ -252,7 +250,9 @@ SurfaceLay surface_lay(const Surface& surface) {
   lay.ratio_low = std::max(1.0, lay.ratio_low);
   lay.angle = across + pi / 2;
   if (lay.angle >= pi) lay.angle -= pi;
-  lay.angle_error = std::hypot(std::sqrt(variances[of_both]) / difference, parts.angle);
+  // A direction of which nothing is known has the scatter of half a turn.
+  lay.angle_error = std::min(std::hypot(std::sqrt(variances[of_both]) / difference, parts.angle),
+                             pi / std::sqrt(12.0));
   return lay;
 }
 
@@ -272,8 +272,8 @@ std::vector<std::string> warnings_of_lay(const SurfaceLay& lay, double skewness,
   std::vector<std::string> warnings;
   if (lay.found() && !by_lay.empty()) warnings.push_back(lay_in_words(lay) + ": " + by_lay);
   if (std::abs(skewness) > most_skewness && !by_skewness.empty())
-    warnings.push_back(fmt::format("the skewness of the heights is {:.2g}: {}", skewness,
-                                   by_skewness));
+    warnings.push_back(
+        fmt::format("the skewness of the heights is {:.2g}: {}", skewness, by_skewness));
   return warnings;
 }
 

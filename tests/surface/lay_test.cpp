@@ -68,7 +68,9 @@ class Workshop {
   /// Wave numbers of a Gaussian autocorrelation exp(−r²/ℓ²): the components of q are normal with the
   /// variance 2/ℓ².
   std::function<Wave()> gaussian(double length) {
-    return [this, length] { return Wave{std::sqrt(2.0) / length * std::hypot(normal(), normal()), 1}; };
+    return [this, length] {
+      return Wave{std::sqrt(2.0) / length * std::hypot(normal(), normal()), 1};
+    };
   }
   /// Waves of equal number in each octave from the wave number `low` to `high`, with C ∝ q^(−2−2H).
   std::function<Wave()> self_affine(double hurst, double low, double high) {
@@ -205,8 +207,8 @@ TEST_CASE("Parallel scratches are a lay, and scratches in all directions or alon
           "[lay]") {
   Workshop shop(4);
   const double angle = GENERATE(0.0, 0.5, 2.2);
-  const SurfaceLay ground = surface_lay(detrended(shop.scratches(128, 60, angle, 0.01),
-                                                  Detrend::plane));
+  const SurfaceLay ground =
+      surface_lay(detrended(shop.scratches(128, 60, angle, 0.01), Detrend::plane));
   REQUIRE(ground.found());
   // Scratches of random width have their own mean direction, with an error of 0.01/√60.
   CHECK(off(ground, angle) < 0.01);
@@ -219,8 +221,9 @@ TEST_CASE("Parallel scratches are a lay, and scratches in all directions or alon
     CHECK_FALSE(surface_lay(detrended(shop.scratches(96, 100, 0, 100), Detrend::plane)).found());
 }
 
-TEST_CASE("Slopes along and across the lay are the eigenvalues of the mean products of the gradient",
-          "[lay]") {
+TEST_CASE(
+    "Slopes along and across the lay are the eigenvalues of the mean products of the gradient",
+    "[lay]") {
   // A periodic sum of waves along and across a lay, with the gradient in closed form: the
   // products are means over whole periods, Σ a²q²/2.
   const Surface waves = sampled({128, 128, 1.0, 1.0}, true, [](double x, double y) {
@@ -230,14 +233,27 @@ TEST_CASE("Slopes along and across the lay are the eigenvalues of the mean produ
     return height + 0.2 * std::cos(2 * pi * (8 * x - 4 * y));
   });
   const SurfaceLay lay = surface_lay(waves);
-  const double across = 2 * pi * std::sqrt(7 * 5 / 2.0),
-               along = 2 * pi * 0.2 * std::sqrt(80 / 2.0);
+  const double across = 2 * pi * std::sqrt(7 * 5 / 2.0), along = 2 * pi * 0.2 * std::sqrt(80 / 2.0);
   CHECK(lay.rms_slope_across == Approx(across).epsilon(1e-10));
   CHECK(lay.rms_slope_along == Approx(along).epsilon(1e-10));
   CHECK(lay.ratio == Approx(across / along).epsilon(1e-10));
   CHECK(lay.angle == Approx(pi + std::atan2(-1, 2)).epsilon(1e-10));
   CHECK(std::hypot(lay.rms_slope_along, lay.rms_slope_across) ==
         Approx(surface_moments(waves).rms_slope()).epsilon(1e-12));
+}
+
+TEST_CASE("The angle of a surface of equal slopes is unknown", "[lay]") {
+  const Surface waves = sampled({32, 32, 1.0, 1.0}, true, [](double x, double y) {
+    return std::cos(2 * pi * 3 * x) + std::cos(2 * pi * 3 * y);
+  });
+  const SurfaceLay lay = surface_lay(waves);
+  CHECK(lay.ratio == Approx(1));
+  CHECK(lay.ratio_low == 1);
+  CHECK(lay.angle_error == Approx(pi / std::sqrt(12)));
+  CHECK_FALSE(lay.found());
+  // A flat surface has no slopes.
+  CHECK(std::isnan(
+      surface_lay(sampled({32, 32, 1.0, 1.0}, true, [](double, double) { return 1.0; })).ratio));
 }
 
 TEST_CASE("Processes find the lay of the whole surface", "[lay]") {

@@ -28,7 +28,7 @@ struct SurfaceLay {
   /// From the x axis to the lay, rad, in [0, π). The texture direction Std of ISO 25178-2 is at
   /// right angles to the lay of a surface with parallel grooves.
   double angle = unknown;
-  double angle_error = unknown;  ///< standard error of `angle`, rad
+  double angle_error = unknown;  ///< standard error of `angle`, rad; at most π/√12
   /// Whether the surface is not isotropic: the difference of the two slopes is beyond the 99 % limit
   /// for isotropic surfaces of as many hills
   bool significant = false;
