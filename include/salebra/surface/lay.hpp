@@ -18,7 +18,8 @@ namespace salebra {
 struct SurfaceLay {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   /// rms slopes along and across the lay; the sum of their squares is the square of the rms slope
-  /// of surface_moments()
+  /// of surface_moments(). The slope along the lay is 0, and the ratio infinite, if it is not above
+  /// the slope of the window.
   double rms_slope_along = unknown, rms_slope_across = unknown;
   double ratio = unknown;      ///< rms slope across the lay over that along it, >= 1
   double ratio_low = unknown;  ///< lower 95 % limit of `ratio`, >= 1
