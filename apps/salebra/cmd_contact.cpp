@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/study/configuration.hpp>
+#include <salebra/surface/lay.hpp>
 
 #include "contact_command.hpp"
 #include "option_words.hpp"
@@ -60,6 +61,20 @@ NormalContactOptions ContactArguments::contact_options(Session& session) const {
   options.max_iterations = max_iterations;
   options.on_progress = session.progress();
   return options;
+}
+
+std::vector<std::string> warnings_of_direction(const ContactArguments& arguments,
+                                               const Surface& surface) {
+  if (!arguments.wants_stiffness() || surface.undefined_points() > 0 ||
+      !std::isfinite(arguments.material.material().tangential_modulus))
+    return {};
+  return warnings_of_lay(
+      surface_lay(surface), 0,
+      arguments.stick ? "the tangential stiffness is that of a motion along x; along and "
+                        "across the lay it differs"
+                      : "the tangential stiffness is (G*/E*)K, that of an isotropic surface; "
+                        "along and across the lay it differs",
+      {});
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/fill.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/profile_fit.hpp>
 #include <salebra/surface/scale_dependence.hpp>
@@ -94,13 +95,14 @@ double reliable_wavelength(const StatisticsArguments& arguments, const Surface& 
 
 /// Grid, roughness and Hurst exponent: the part of the answer that is always printed.
 Json summary(const StatisticsArguments& arguments, const Surface& surface, Index undefined,
-             const SelfAffineFit& fit) {
+             const SelfAffineFit& fit, const SurfaceLay& lay) {
   const HeightStatistics heights = height_statistics(surface);
   Json answer = json_of(surface.grid);
   answer.add(json_of(SurfacePoints{surface.periodic, undefined,
                                    arguments.surface.fill ? undefined : 0, heights.mean}));
   answer.add(json_of(heights));
   answer.add(json_of(undefined > 0 ? difference_moments(surface) : surface_moments(surface)));
+  answer.add(json_of(lay));
   answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
   answer["rolloff"] = to_json(fit.rolloff);
   answer["short_cutoff"] = to_json(fit.short_cutoff);
@@ -161,6 +163,7 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
   SelfAffineFit fit;
+  SurfaceLay lay;
   if (undefined == 0 || arguments.surface.fill) {
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
@@ -169,9 +172,11 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     // opposite edges, which would falsify the fit.
     if (complete.periodic || spectrum->windowed)
       fit = fit_self_affine(*spectrum, reliable_wavelength(arguments, surface));
+    lay = surface_lay(complete);
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
-  const Json answer = summary(arguments, surface, undefined, fit);
+  const Json answer = summary(arguments, surface, undefined, fit, lay);
+  if (lay.found()) session.inform(lay_in_words(lay));
   // Only surfaces with this many points in each direction get a note if no exponent was found.
   constexpr Index expected = 32;
   if (spectrum && std::min(surface.grid.nx, surface.grid.ny) >= expected) {

@@ -61,6 +61,10 @@ struct ContactArguments {
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 
+/// Returns a warning if the tangential stiffness is requested and the surface has a lay, on which it
+/// depends. Collective.
+std::vector<std::string> warnings_of_direction(const ContactArguments& arguments,
+                                               const Surface& surface);
 /// Answers with the state of the surface at one operating point, by boundary elements.
 void press_once(const ContactArguments& arguments, Session& session);
 /// Answers with the force curve of the surface at several pressures, by boundary elements.

@@ -110,6 +110,7 @@ void press_often(const ContactArguments& arguments, Session& session) {
   Surface surface = arguments.surface.read(session, options.groups->own());
   const std::vector<double> pressures = arguments.pressures_on(surface.grid.area());
   session.warn_if(warning_of_pressure(pressures.back(), material.contact_modulus));
+  session.warn(warnings_of_direction(arguments, surface));
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
   std::vector<FlowFactors> flow(arguments.flow_factors ? pressures.size() : 0);

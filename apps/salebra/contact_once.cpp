@@ -204,6 +204,7 @@ class OneContact {
 
   void add_stiffness() {
     const double area = surface_.grid.area();
+    session_.warn(warnings_of_direction(arguments_, surface_));
     SweepOptions options{.contact = options_, .stick = arguments_.stick};
     if (arguments_.adhesive())
       options.contact.hardness = arguments_.adhesion().pressure_bound(options_.hardness);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>  // analysis/ has no problem for it
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
@@ -29,6 +30,12 @@ DescribedModel of_surface(const ContactArguments& arguments, const Material& mat
       "given together with a surface, which has its own summits; leave out one of the two");
   const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
+  if (surface.undefined_points() == 0)
+    session.warn(warnings_of_lay(
+        surface_lay(surface), arguments.model == "gw_moments" ? heights.skewness : 0,
+        "the summits of the model are spheres, and its surface is isotropic",
+        "the summit density, radius and heights of the model follow from moments of a Gaussian "
+        "surface"));
   if (arguments.model == "gw_deterministic") {
     const SummitList list = find_summits(surface);
     SummitEnsemble ensemble = summit_ensemble(summit_statistics(list), heights.mean);

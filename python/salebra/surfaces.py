@@ -30,6 +30,7 @@ from ._core import (
     SummitList as SummitList,
     SummitStatistics as SummitStatistics,
     Surface as Surface,
+    SurfaceLay as SurfaceLay,
     SurfaceTwin as SurfaceTwin,
     TwinDraw as TwinDraw,
     TwinGroup as TwinGroup,
@@ -65,5 +66,6 @@ from ._core import (
     significant_peaks as significant_peaks,
     spectral_moments as spectral_moments,
     summit_statistics as summit_statistics,
+    surface_lay as surface_lay,
     surface_moments as surface_moments,
 )

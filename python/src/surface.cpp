@@ -12,6 +12,7 @@
 #include <salebra/surface/crop.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/fill.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
 #include <salebra/surface/spikes.hpp>
@@ -333,6 +334,27 @@ If the surface is distributed over processes, each gets the summits of its rows;
       "pruning of ISO 25178-2.");
 }
 
+void bind_lay(nb::module_& m) {
+  described_class<SurfaceLay>(
+      m, "SurfaceLay",
+      "The lay of a surface, i.e. the direction of its grooves, with the rms slopes along and "
+      "across "
+      "it; NaN if unknown. The lay is that of a ground surface if `has_lay` is true.")
+      .def("in_words", &lay_in_words,
+           "Text such as \"ground-like: lay 12° from x, 6 to 1\"; empty if `has_lay` is false.");
+  m.def("surface_lay", &of_surface<surface_lay>, nb::arg("surface"),
+        R"(Finds the lay of a surface from the mean products of its gradient.
+
+The slope along a direction is least along the lay. The matrix is taken over the waves longer than four cells of the coarser axis. The
+difference of the slopes is significant if it exceeds what an isotropic surface of as many hills has by chance. Subtract any tilt first.
+
+Raises
+------
+InvalidInput
+    For fewer than 3 × 3 points, and unless the surface is complete.
+)");
+}
+
 void bind_areal_parameters(nb::module_& m) {
   described_class<ArealParameters>(
       m, "ArealParameters",
@@ -352,6 +374,7 @@ void bind_surface(nb::module_& m) {
   bind_height_statistics(m);
   bind_summits(m);
   bind_areal_parameters(m);
+  bind_lay(m);
 }
 
 }  // namespace salebra::python

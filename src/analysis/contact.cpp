@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <utility>
 
@@ -274,6 +276,12 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
   std::vector<std::string> warnings;
   if (const auto warning = warning_of_pressure(largest, body.material.contact_modulus))
     warnings.push_back(*warning);
+  std::ranges::move(
+      warnings_of_lay(surface_lay(body.surface), 0,
+                      "the tangential stiffness and the damping constant are those of motion along "
+                      "x; along and across the lay they differ",
+                      {}),
+      std::back_inserter(warnings));
   if (body.hardness && body.normal_amplitude > 0)
     body.hold = detail::hold_of(body.surface, body.material.contact_modulus,
                                 std::ranges::min(body.pressure), body.normal_amplitude, body.hold,

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
+#include <salebra/surface/lay.hpp>
+#include <salebra/surface/moments.hpp>
 #include <string>
 #include <utility>
 
@@ -75,6 +78,22 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
                                       : ""));
 }
 
+/// Warns of a lay and of skew heights, on which the results of these models depend.
+void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration,
+                 StudyLoads& loads) {
+  const bool theories = std::ranges::any_of(
+      configuration.models, [](ContactModel model) { return model != ContactModel::bem; });
+  std::string by_lay =
+      "the tangential stiffness and the damping constant of boundary elements are those of motion "
+      "along x; along and across the lay they differ";
+  if (theories) by_lay += ". The other models assume an isotropic surface";
+  std::ranges::move(
+      warnings_of_lay(
+          surface_lay(surface), height_statistics(surface).skewness, by_lay,
+          theories ? "the models other than boundary elements assume Gaussian heights" : ""),
+      std::back_inserter(loads.warnings));
+}
+
 }  // namespace
 
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& communicator) {
@@ -91,6 +110,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     const Surface surface = measured_surface(measured, communicator, &loads.warnings);
     slope = surface_moments(surface).rms_slope();
     grid = surface.grid;
+    warn_of_lay(surface, configuration, loads);
   }
   const double modulus = configuration.material.contact_modulus;
   const bool adhesive = configuration.adhesion.has_value();

@@ -11,6 +11,8 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/study/twin_file.hpp>
+#include <salebra/surface/lay.hpp>
+#include <salebra/surface/moments.hpp>
 
 #include "io/input_file.hpp"
 #include "results/quantity_group.hpp"
@@ -122,8 +124,17 @@ std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measure
   std::vector<ScanSpectrum> scans;
   for (const TwinMeasurement& one : measurements) {
     const Surface surface = measured_surface(one.surface, {}, warnings);
-    scans.push_back(scan_spectrum(surface.heights, surface.grid, one.instrument, one.weight,
-                                  one.surface.file.filename().string()));
+    const std::string name = one.surface.file.filename().string();
+    if (warnings && surface.grid.ny > 1)
+      for (const std::string& warning : warnings_of_lay(
+               surface_lay(surface), height_statistics(surface).skewness,
+               "the twin is isotropic, so that its Hurst exponent, roll-off and cut-off are "
+               "mixtures "
+               "of the values along and across the lay, and their intervals do not hold",
+               "the twin has Gaussian heights, so that its contact area and gap are not those of "
+               "the surface"))
+        warnings->push_back(name + ": " + warning);
+    scans.push_back(scan_spectrum(surface.heights, surface.grid, one.instrument, one.weight, name));
     const auto done = static_cast<double>(scans.size());
     if (progress && !progress({"scans", done / static_cast<double>(measurements.size()),
                                static_cast<int>(scans.size()), 0}))

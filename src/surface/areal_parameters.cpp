@@ -27,9 +27,14 @@ constexpr double correlation_level = 0.2;  ///< s of Sal and Str, default of ISO
 constexpr double pruning = 0.05;           ///< least prominence of peaks/Sz, by default
 constexpr int directions = 720;            ///< number of directions in half a turn
 
-/// Distance along a direction at which the autocorrelation first falls to the level; infinite if it
-/// never does.
-double fall_distance(const CorrelationMap& map, double angle, double level) {
+/// Distance along a direction at which the autocorrelation first falls to the level, or up to which
+/// it is known and stays above the level.
+struct Fall {
+  double distance;
+  bool seen;
+};
+
+Fall fall_distance(const CorrelationMap& map, double angle, double level) {
   const double along_x = std::cos(angle), along_y = std::sin(angle);
   // Step along the direction, in metres: it is half a cell for cells of any shape.
   const double step = 0.5 / std::hypot(along_x / map.grid.dx(), along_y / map.grid.dy());
@@ -53,30 +58,33 @@ double fall_distance(const CorrelationMap& map, double angle, double level) {
   double before = value(0);
   for (double distance = step;; distance += step) {
     const double here = value(distance);
-    if (std::isnan(here)) return std::numeric_limits<double>::infinity();
-    if (here <= level) return distance - step * (level - here) / (before - here);
+    if (std::isnan(here)) return {distance - step, false};
+    if (here <= level) return {distance - step * (level - here) / (before - here), true};
     before = here;
   }
 }
 
 /// Returns of(angle) for all directions of half a turn.
-template <class Of>
-std::vector<double> of_directions(const Of& of) {
-  return parallel::map_blocks_of<double>(
+template <class Value, class Of>
+std::vector<Value> of_directions(const Of& of) {
+  return parallel::map_blocks_of<Value>(
       1, directions, [&](Index k, Index) { return of(pi * static_cast<double>(k) / directions); });
 }
 
 void set_correlation_lengths(ArealParameters& result, const CorrelationMap& map) {
   const double variance = map.autocorrelation(map.origin(), 0);
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  for (const double distance : of_directions(
+  bool all_seen = true;
+  for (const Fall& fall : of_directions<Fall>(
            [&](double angle) { return fall_distance(map, angle, correlation_level * variance); })) {
-    shortest = std::min(shortest, distance);
-    longest = std::max(longest, distance);
+    if (fall.seen) shortest = std::min(shortest, fall.distance);
+    longest = std::max(longest, fall.distance);
+    all_seen = all_seen && fall.seen;
   }
   const bool falls = variance > 0 && std::isfinite(shortest);
   result.Sal = falls ? shortest : unknown;
-  result.Str = falls && std::isfinite(longest) ? shortest / longest : unknown;
+  result.Str_max = falls ? std::min(1.0, shortest / longest) : unknown;
+  result.Str = all_seen ? result.Str_max : unknown;
 }
 
 /// ∫ r C dr along a ray of the spectrum C in the direction `angle`, up to a factor common to all
@@ -110,7 +118,7 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
 
 double strongest_direction(const PowerSpectrum& spectrum) {
   const std::vector<double> powers =
-      of_directions([&](double angle) { return ray_power(spectrum, angle); });
+      of_directions<double>([&](double angle) { return ray_power(spectrum, angle); });
   double best = 0, direction = unknown;
   for (int k = 0; k < directions; ++k) {
     if (const double power = powers[static_cast<std::size_t>(k)]; power > best * (1 + 1e-12)) {
@@ -227,8 +235,9 @@ ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts
   if (surface.communicator.alone()) {
     set_of_whole(result, surface, parts);
   } else {
-    for (double* parameter : {&result.Sal, &result.Str, &result.Std, &result.Sk, &result.Spk,
-                              &result.Svk, &result.Smr1, &result.Smr2, &result.Spd, &result.Spc})
+    for (double* parameter :
+         {&result.Sal, &result.Str, &result.Str_max, &result.Std, &result.Sk, &result.Spk,
+          &result.Svk, &result.Smr1, &result.Smr2, &result.Spd, &result.Spc})
       *parameter = unknown;
   }
   return result;

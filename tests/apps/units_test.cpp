@@ -32,7 +32,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
            "decay_length_by_weights.equal decay_length_by_weights.force")},
       {length_squared, words("moment0 contact_area_min contact_area_max")},
       {inverse_length_squared, words("moment4 summit_density Spd")},
-      {angle, words("Std")},
+      {angle, words("Std lay_angle lay_angle_error")},
       {inverse_length, words("Spc")},
       {pressure, words("pressure pressure_min pressure_max max_pressure reference_pressure")},
       {force, words("force max_force mean_force tangential_force")},
@@ -52,7 +52,8 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {frequency, words("frequency")},
       {angular_frequency, words("angular_frequency natural_frequency")},
       {dimensionless,
-       words("asked_over_lattice balance contact_time friction_coefficient contact_area_fraction "
+       words("rms_slope_along rms_slope_across lay_ratio lay_ratio_low lay_ratio_high Str_max "
+             "asked_over_lattice balance contact_time friction_coefficient contact_area_fraction "
              "damping_ratio "
              "dundurs force_change frequency_ratio high kurtosis logarithmic_decrement loss_factor "
              "low moment2 nayak over_stick quality_factor r_squared ratio ratio_exponential "

@@ -52,6 +52,8 @@ TEST_CASE("A sinusoid has the heights of its formula", "[areal]") {
   CHECK(p.Sal == Approx(std::acos(0.2) / (2 * pi * 4 / 1e-3)).epsilon(1e-3));
   // The correlation never falls along y.
   CHECK(std::isnan(p.Str));
+  // The longest distance within half of the surface leans from y by at most Sal.
+  CHECK(p.Str_max == Approx(p.Sal / std::hypot(p.Sal, 0.5e-3)).epsilon(0.01));
   CHECK(p.Std == Approx(0).margin(1e-12));
 }
 
@@ -77,6 +79,7 @@ TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and directio
   const double fall = length * std::sqrt(std::log(5.0));
   CHECK(p.Sal == Approx(0.8 * fall).epsilon(0.02));
   CHECK(p.Str == Approx(0.8 / 2).epsilon(0.02));
+  CHECK(p.Str_max == p.Str);
   // The power lies across the lay. With fixed amplitudes, only the lattice of modes shifts the
   // maximum.
   CHECK(p.Std == Approx(angle + pi / 2).margin(pi / 180));

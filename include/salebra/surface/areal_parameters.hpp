@@ -22,6 +22,10 @@ struct ArealParameters {
   /// distance 0. NaN if it does not fall that far within half the surface.
   double Sal = 0;
   double Str = 0;  ///< Sal over the longest distance to 0.2, from 0 to 1; NaN if unknown
+  /// Upper bound of Str: Str if it is known. If the autocorrelation stays above 0.2 up to half the
+  /// surface in some direction, the length along the lay is beyond this distance, and the bound is
+  /// Sal over it. NaN if Sal is.
+  double Str_max = 0;
   /// Texture direction from the x axis, in [0, π) rad: where the angular spectrum ∫ q C dq is
   /// greatest (along 720 rays, C interpolated bilinearly). The lay is perpendicular to this
   /// direction. NaN if points are undefined or all heights are equal.
@@ -52,6 +56,8 @@ constexpr void describe(auto&& visit, std::type_identity<ArealParameters>) {
   visit(&S::Sz, Quantity{"Sz", length, "ISO 25178-2 maximum height"});
   visit(&S::Sal, Quantity{"Sal", length, "ISO 25178-2 autocorrelation length, s = 0.2"});
   visit(&S::Str, Quantity{"Str", dimensionless, "ISO 25178-2 texture aspect ratio, s = 0.2"});
+  visit(&S::Str_max, Quantity{"Str_max", dimensionless,
+                              "upper bound of Str, also where the lay is longer than the surface"});
   visit(&S::Std, Quantity{"Std", angle, "ISO 25178-2 texture direction"});
   visit(&S::Sdq, Quantity{"Sdq", dimensionless, "ISO 25178-2 root mean square gradient"});
   visit(&S::Sdr, Quantity{"Sdr", dimensionless, "ISO 25178-2 developed interfacial area ratio"});
