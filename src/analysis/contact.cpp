@@ -70,7 +70,9 @@ void require_on_curve(const OperatingPoints& at, const ForceCurve& curve) {
   const Dimension dimension = dimension_of(at.control);
   const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.control)));
   for (const double value : at.values)
-    require(!(value < low || value > high), name_of(at.control), format_quantity(value, dimension),
+    // A body that lifts off has a mean indentation below the curve.
+    require(!((value < low && at.control != ControlQuantity::indentation) || value > high),
+            name_of(at.control), format_quantity(value, dimension),
             fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
                         "the curve",
                         format_quantity(low, dimension), format_quantity(high, dimension)));

@@ -558,7 +558,8 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
 std::vector<std::string> warnings_of_path(double drag_velocity, double angular_frequency,
                                           double spot_radius) {
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
-  if (!(path > 2 * spot_radius)) return {};
+  // Where the bodies are apart at the mean indentation, the size of a patch is not known.
+  if (!(spot_radius > 0) || !(path > 2 * spot_radius)) return {};
   return {fmt::format(
       "the slow motion moves by 2 pi v/w = {} in one normal cycle, more than the contact patch "
       "size of {}; choose a lower `drag_velocity` or a higher `frequency`",

@@ -265,6 +265,20 @@ OscillationOutcome oscillation_by_intervals(OscillationCase run, const Oscillati
   }
   if (outcome.intervals.termination == Termination::interrupted)
     throw Interrupted("interrupted; nothing was written");
+  const double amplitude =
+      std::visit([](const auto& m) { return m.normal_amplitude; }, contact.motion);
+  const bool from_file = contact.body.indentation == 0;
+  if (from_file && contact.indentation < amplitude) {
+    // The polynomial through the forces of a cycle that lifts off does not describe a rough surface
+    // at its mean indentation.
+    outcome.intervals.force =
+        contact.indentation > 0
+            ? contact_at(at_indentation(contact.indentation), contact.body,
+                         contact.material.contact_modulus, {.boundary = contact.body.boundary})
+                  .force
+            : 0;
+    outcome.intervals.force_curvature = outcome.intervals.small_amplitude_work = unknown;
+  }
   return outcome;
 }
 

@@ -42,8 +42,8 @@ std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplit
 // The largest normal amplitude about an indentation for which the motion stays in the range of the
 // law.
 double covered_amplitude(const ContactLaw& law, double indentation) {
-  return std::min({indentation - law.lowest_indentation(), law.highest_indentation() - indentation,
-                   detail::possible_amplitude(law, indentation)});
+  return std::min(law.highest_indentation() - indentation,
+                  detail::possible_amplitude(law, indentation));
 }
 
 SliderThreshold in_hertz(SliderThreshold threshold) {

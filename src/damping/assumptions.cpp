@@ -384,6 +384,11 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
 // In gross sliding, springs that still stick may carry this fraction of the mean normal force.
 constexpr double stuck_share = 0.05;
 
+// Largest speed u_z sin θ at which the friction limits fall while the bodies touch, divided by ω.
+double fastest_of(const ContactLaw& law, double mean, double amplitude) {
+  return amplitude * std::sin(pi * std::min(0.5, contact_time(law, mean, amplitude)));
+}
+
 // Cycle mean of the force under δ = mean + amplitude cosθ. The regime needs no more digits than the
 // trapezoidal rule gives.
 double mean_force_of(const ContactLaw& law, double mean, double amplitude) {
@@ -405,7 +410,8 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
   // All springs open in each cycle. In an oscillation a spring of depth ζ slips in both halves of
   // the cycle if the displacement exceeds its largest stretch limit δ_max − ζ.
   if (!(least > 0))
-    return motion.drag ? displacement >= motion.amplitude : law.force(top - displacement) <= stuck;
+    return motion.drag ? displacement >= fastest_of(law, motion.mean, motion.amplitude)
+                       : law.force(top - displacement) <= stuck;
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
     // A spring of depth ζ sticks if one anchor stays within the stretch limit δ − ζ of x at all
@@ -857,7 +863,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
       .no_slip_excursion = {},
       .no_slip_velocity = limit * slip.displacements.five * omega,
       .sliding_excursion = 2 * limit * depth_of_share(law, bottom, stuck / law.force(bottom)),
-      .critical_velocity = limit * amplitude * omega,
+      .critical_velocity = limit * fastest_of(law, mean_indentation, amplitude) * omega,
       .full_stick_ratio = without.work_per_cycle / without.small_amplitude_work};
   if (velocities.empty()) return map;
   Springs springs(law, *motion.path, false,

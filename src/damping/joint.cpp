@@ -448,7 +448,9 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   JointLoss loss = loss_of_springs(law, high, motion, friction_coefficient, options.tolerance);
   const double depth = (high - law.first_touch()) * (loss.tangential_amplitude / loss.knee);
   state_error(loss, law, {high - depth, high}, high - depth, [&](const ContactLaw& other) {
-    return loss_of_springs(other, high, motion, friction_coefficient, options.tolerance)
+    // The load stays, and with it the friction force.
+    const double there = point.load_given() ? other.indentation_of(law.force(high)) : high;
+    return loss_of_springs(other, there, motion, friction_coefficient, options.tolerance)
         .work_per_cycle;
   });
   return loss;

@@ -14,9 +14,12 @@ void Loss::set_damping_constants(const Oscillation& motion) {
 }
 
 void Loss::drop_uncertain() {
-  if (error.total() >= std::abs(work_per_cycle))
+  const auto uncertain = [](double error_of_work, double work) {
+    return error_of_work > 0 && error_of_work >= std::abs(work);
+  };
+  if (uncertain(error.total(), work_per_cycle))
     work_per_cycle = damping_constant = relaxation_work = slip_work = unknown;
-  if (error_without_slip.total() >= std::abs(work_per_cycle_without_slip))
+  if (uncertain(error_without_slip.total(), work_per_cycle_without_slip))
     work_per_cycle_without_slip = damping_constant_without_slip = unknown;
 }
 

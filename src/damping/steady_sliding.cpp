@@ -268,7 +268,11 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
   common.indentation = stuck.indentation;
   common.mean_force = stuck.mean_force;
   common.relaxation_damping = stuck.damping_constant;
-  common.critical_velocity = friction_coefficient / stiffness_ratio * amplitude * omega;
+  // Velocity at which the friction limit of a spring falls fastest in a cycle; while the bodies
+  // touch, it may fall more slowly.
+  const double fastest = friction_coefficient / stiffness_ratio * amplitude * omega;
+  common.critical_velocity =
+      fastest * std::sin(pi * std::min(0.5, contact_time(law, stuck.indentation, amplitude)));
   const double min_friction = friction_coefficient * law.force(low);
   common.static_friction_coefficient = min_friction / common.mean_force;
   if (amplitude > 0)
@@ -280,7 +284,7 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
   all.reserve(velocities.size());
   for (const double velocity : velocities) {
     SteadySliding& result = all.emplace_back(common);
-    const Period period(velocity / common.critical_velocity);
+    const Period period(velocity / fastest);
     if (velocity >= common.critical_velocity) {
       result.mean_tangential_force = friction_coefficient * common.mean_force;
       result.sliding_damping = 0;

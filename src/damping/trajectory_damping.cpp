@@ -55,8 +55,10 @@ void set_means(TrajectoryDamping& result, const SampledMotion& path,
   result.storage_stiffness = result.loss_factor = unknown;
   if (drifts || !(variance > 0)) return;
   result.storage_stiffness = in_phase / variance;
-  result.loss_factor =
-      result.work_per_cycle / (2 * std::numbers::pi * result.storage_stiffness * variance);
+  // A contact that pushes the body on stores no energy to compare the loss with.
+  if (result.storage_stiffness > 0)
+    result.loss_factor =
+        result.work_per_cycle / (2 * std::numbers::pi * result.storage_stiffness * variance);
 }
 
 // Returns whether the displacement changes over a period by more than the round-off of a closed

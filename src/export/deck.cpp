@@ -476,7 +476,14 @@ void add_springs(Deck& deck) {
   const std::shared_ptr<const ContactLaw> law = law_of_case(problem, range, which);
   // Because of rounding, the ends of the range may lie outside the table.
   const double lowest = std::max(first.clearance_origin - range.far, law->lowest_indentation());
-  const double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
+  double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
+  // Springs follow motions that lift off, under which the force of an exponential law rises to
+  // √(2π u_z/l) times its mean: 100 times at 1600 decay lengths.
+  if (!std::isfinite(law->highest_indentation()) && !problem.pressure_window &&
+      !std::isnan(first.indentation))
+    highest = std::max(highest, detail::possible_indentation(
+                                    *law, first.indentation,
+                                    law->indentation_of(100 * law->force(first.indentation))));
   const bool friction = !std::isnan(problem.friction_coefficient);
   deck.springs = std::make_shared<const LawSprings>(
       *law, lowest, highest,
