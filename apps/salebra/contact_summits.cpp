@@ -32,7 +32,7 @@ DescribedModel of_surface(const ContactArguments& arguments, const Material& mat
   const HeightStatistics heights = height_statistics(surface);
   if (surface.undefined_points() == 0)
     session.warn(warnings_of_lay(
-        surface_lay(surface), arguments.model == "gw_moments" ? heights.skewness : 0,
+        surface_lay(surface), arguments.model == "gw_moments" ? significant_skewness(surface) : 0,
         "the summits of the model are spheres, and its surface is isotropic",
         "the summit density, radius and heights of the model follow from moments of a Gaussian "
         "surface"));

@@ -179,6 +179,7 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
   const auto at = [&](const OperatingPoint& one) {
     return contact_at(one, body, contact_modulus, options);
   };
+  if (hold != Hold::force && point.control == ControlQuantity::indentation) return point.value;
   const NormalContactState rest = at(point);
   const bool load_given =
       point.control == ControlQuantity::pressure || point.control == ControlQuantity::normal_force;

@@ -89,7 +89,7 @@ void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration
   if (theories) by_lay += ". The other models assume an isotropic surface";
   std::ranges::move(
       warnings_of_lay(
-          surface_lay(surface), height_statistics(surface).skewness, by_lay,
+          surface_lay(surface), significant_skewness(surface), by_lay,
           theories ? "the models other than boundary elements assume Gaussian heights" : ""),
       std::back_inserter(loads.warnings));
 }

@@ -127,7 +127,7 @@ std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measure
     const std::string name = one.surface.file.filename().string();
     if (warnings && surface.grid.ny > 1)
       for (const std::string& warning : warnings_of_lay(
-               surface_lay(surface), height_statistics(surface).skewness,
+               surface_lay(surface), significant_skewness(surface),
                "the twin is isotropic, so that its Hurst exponent, roll-off and cut-off are "
                "mixtures "
                "of the values along and across the lay, and their intervals do not hold",

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
+#include <salebra/surface/correlation.hpp>
 #include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -264,6 +265,25 @@ std::string lay_in_words(const SurfaceLay& lay) {
                                 ? fmt::format("above {:.2g} to 1", lay.ratio_low)
                                 : fmt::format("{:.2g} to 1", lay.ratio);
   return fmt::format("ground-like: lay {}° from x, {}", degrees, ratio);
+}
+
+double significant_skewness(const Surface& surface) {
+  if (surface.communicator.size() > 1) return 0;
+  const double skewness = height_statistics(surface).skewness;
+  if (!(std::abs(skewness) > most_skewness)) return 0;
+  const CorrelationMap map = correlation_map(surface);
+  const Index origin = map.origin();
+  const double variance = map.autocorrelation(origin, 0), points = map.pairs(origin, 0);
+  double sum = 0;
+  for (Index j = 0; j < map.pairs.cols(); ++j)
+    for (Index i = 0; i < map.pairs.rows(); ++i) {
+      if (!(map.pairs(i, j) > 0)) continue;
+      // The map has only half of the lags, those with y >= 0.
+      const double both = j > 0 ? 2 : 1;
+      sum += both * std::pow(map.autocorrelation(i, j) / variance, 3) * map.pairs(i, j);
+    }
+  const double deviation = std::sqrt(6 * std::max(sum, points)) / points;
+  return std::abs(skewness) > 3 * deviation ? skewness : 0;
 }
 
 std::vector<std::string> warnings_of_lay(const SurfaceLay& lay, double skewness,

@@ -160,7 +160,8 @@ TEST_CASE("Statistics of a surface over processes have the numbers of one proces
   for (const char* table :
        {"correlation", "correlation_x", "correlation_y", "bearing", "histogram"})
     expected.erase(table);
-  for (const char* name : {"Sal", "Str", "Std", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Spd", "Spc"})
+  for (const char* name :
+       {"Sal", "Str", "Str_max", "Std", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Spd", "Spc"})
     expected["areal"][name] = nullptr;
   for (const int ranks : {2, 3}) {
     const std::string file = fmt::format("spread{}.json", ranks);

@@ -77,6 +77,13 @@ SurfaceLay surface_lay(const Surface& surface);
 /// lay.found(). The ratio is "above 20 to 1", with its lower limit, if it has no upper limit.
 std::string lay_in_words(const SurfaceLay& lay);
 
+/// Returns the skewness of the heights if a Gaussian surface with the same correlation function
+/// would rarely have it, otherwise 0. The sample skewness of a Gaussian surface of N points has the
+/// variance 6 Σ_r ρ(r)³ n(r)/N², with the correlation ρ and the number n of pairs at the lag r; the
+/// limit is three standard deviations. A surface that is spread over processes gives 0.
+///     double skewness = significant_skewness(surface);
+double significant_skewness(const Surface& surface);
+
 /// Returns warnings for results that assume an isotropic surface or Gaussian heights: one if the
 /// surface has a lay, and one if |skewness| > 0.5:
 ///     warnings_of_lay(surface_lay(surface), 0, "the tangential stiffness is that along x", "");
