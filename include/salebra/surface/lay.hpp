@@ -80,7 +80,8 @@ std::string lay_in_words(const SurfaceLay& lay);
 /// Returns the skewness of the heights if a Gaussian surface with the same correlation function
 /// would rarely have it, otherwise 0. The sample skewness of a Gaussian surface of N points has the
 /// variance 6 Σ_r ρ(r)³ n(r)/N², with the correlation ρ and the number n of pairs at the lag r; the
-/// limit is three standard deviations. A surface that is spread over processes gives 0.
+/// limit is three standard deviations. Each quarter of the map must have a skewness of the same sign
+/// above 0.25. A surface that is spread over processes gives 0.
 ///     double skewness = significant_skewness(surface);
 double significant_skewness(const Surface& surface);
 
