@@ -62,9 +62,9 @@ def step(unit: Any, time: float, place: np.ndarray) -> np.ndarray:
 
 
 def test_every_step_has_the_forces_and_the_work_of_a_contact_element(unit: Any) -> None:
-    # The deck covers forces from 0.001 F to 10 F. The motion lifts off and slides.
+    # The springs cover forces from 0.001 F to 100 F. The motion lifts off and slides.
     law = salebra.ExponentialLaw(FORCE, DECAY, ratio())
-    springs = salebra.LawSprings(law, DECAY * np.log(1e-3), DECAY * np.log(10), friction_coefficient=FRICTION, springs=SPRINGS)
+    springs = salebra.LawSprings(law, DECAY * np.log(1e-3), DECAY * np.log(100), friction_coefficient=FRICTION, springs=SPRINGS)
     element = salebra.ContactElement(springs)
     phase = np.linspace(0, 4 * np.pi, 401)
     path = np.array([-1.4e-6 + 1.5e-6 * np.cos(phase), 8e-8 * np.sin(phase), 3e-8 * np.sin(2 * phase)]).T
@@ -123,7 +123,8 @@ def test_a_simulation_program_runs_the_unit_by_itself(archive: Path) -> None:
     signal = np.empty(101, dtype=[("time", float), ("indentation", float), ("displacement_x", float)])
     signal["time"], signal["indentation"], signal["displacement_x"] = time, 0, 4e-8 / MM * time
     result = fmpy.simulate_fmu(archive, stop_time=1.0, output_interval=0.01, input=signal)
-    assert result["normal_force"] == pytest.approx(FORCE, rel=1e-9)
+    # The operating point lies between two nodes of the springs.
+    assert result["normal_force"] == pytest.approx(FORCE, rel=1e-6)
     # µF[1 − exp(−x/λ)] at the last displacement; FMPy holds the displacement of the beginning of a step during the step.
     reach = FRICTION * DECAY / ratio()
     at = 4e-8 * np.clip(result["time"][-1] - 0.01, 0, 1)
