@@ -48,8 +48,7 @@ constexpr double negligible = 1e-17;
 // A spring slips or sticks as far as its share of the normal force, or of the loss, matters: 5 %.
 constexpr double share_that_matters = 0.05;
 
-// sweep_breaks() between two depths, and the integral of f over ranges of points that the quadrature
-// takes at once. A measured curve may have thousands of loads, at each of which K_t has a kink.
+// sweep_breaks() between two depths, also if there are more of them than it returns at once.
 constexpr std::size_t most_breaks = 400;
 
 std::vector<double> breaks_between(const ContactLaw& law, double low, double high) {
@@ -61,21 +60,6 @@ std::vector<double> breaks_between(const ContactLaw& law, double low, double hig
   for (std::size_t i = 1; i < ends.size(); ++i)
     std::ranges::copy(detail::sweep_breaks(law, ends[i - 1], ends[i]), std::back_inserter(breaks));
   return breaks;
-}
-
-detail::Integral integral_between(const std::function<double(double)>& f,
-                                  const std::vector<double>& breaks, double tolerance,
-                                  double absolute = 0) {
-  if (breaks.size() <= most_breaks + 3) return detail::integrate(f, breaks, tolerance, absolute);
-  detail::Integral sum;
-  for (std::size_t first = 0; first + 1 < breaks.size(); first += most_breaks) {
-    const std::size_t count = std::min(most_breaks + 1, breaks.size() - first);
-    const detail::Integral part =
-        detail::integrate(f, std::span(breaks).subspan(first, count), tolerance, absolute);
-    sum.value += part.value, sum.error += part.error;
-  }
-  sum.converged = sum.error <= std::max(absolute, tolerance * std::abs(sum.value));
-  return sum;
 }
 
 // All springs of a contact at one indentation, and the slope μ' of their friction limit.
@@ -91,7 +75,7 @@ struct WholeContact {
         if (low = high - depth; !(law.tangential_stiffness(low) > negligible * stiffness)) break;
     const std::vector<double> breaks = breaks_between(law, low, high);
     const auto moment = [&](auto&& weight) {
-      const detail::Integral found = integral_between(
+      const detail::Integral found = detail::integrate(
           [&](double at) { return law.tangential_stiffness(at) * weight(high - at); }, breaks,
           tolerance);
       converged = converged && found.converged;
@@ -131,8 +115,8 @@ class SlippingSprings {
   // ∫_0^π f(θ, K_t) dθ with K_t at the indentation high − depth · sin²(θ/2).
   double integral(const std::function<double(double, double)>& f) {
     const detail::Integral found =
-        integral_between([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
-                         tolerance_, absolute_);
+        detail::integrate([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
+                          tolerance_, absolute_);
     converged_ = converged_ && found.converged;
     return found.value;
   }
@@ -162,7 +146,7 @@ double depth_of_slip(const ContactLaw& law, const WholeContact& whole, double fo
     const double next = depth + step;
     if (!(high - next > law.first_touch())) break;
     const std::vector<double> breaks = breaks_between(law, high - next, high - depth);
-    reached += integral_between(
+    reached += detail::integrate(
                    [&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
                    breaks, tolerance)
                    .value;
@@ -423,9 +407,8 @@ struct Swing {
 
 namespace {
 
-// Sets the error of a loss that comes from a table, and removes a loss that is no larger. swing: range
-// of depths in which the loss arises. lowest:
-// lowest depth of the springs that slip.
+// Sets the error of a loss that comes from a table, and removes a loss that is no larger. swing:
+// range of depths in which the loss arises. lowest: lowest depth of the springs that slip.
 void state_error(JointLoss& loss, const ContactLaw& law, std::pair<double, double> swing,
                  double lowest, const std::function<double(const ContactLaw&)>& work_of) {
   loss.work_error =
@@ -590,6 +573,10 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
   loss.converged = true;
   set_ratios(loss);
   return loss;
+}
+
+double detail::stiffness_ratio_of_whole(const ContactLaw& law, double indentation) {
+  return WholeContact(law, indentation, 1, 1e-12).ratio;
 }
 
 detail::JointLoop detail::joint_loop(const ContactLaw& law, double indentation,

@@ -17,4 +17,8 @@ struct JointLoop {
 JointLoop joint_loop(const ContactLaw& law, double indentation, const JointMotion& motion,
                      double friction_coefficient, int steps, const Progress& on_progress);
 
+/// K_t/K of a whole contact at an indentation, ∫K_t dδ/F: with this slope of the friction limits the
+/// springs of a contact that slides as a whole carry μF.
+double stiffness_ratio_of_whole(const ContactLaw& law, double indentation);
+
 }  // namespace salebra::detail

@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 
 #include "base/numerics/quadrature.hpp"
+#include "damping/joint_loop.hpp"
 #include "formats.hpp"
 
 namespace salebra::detail {
@@ -22,7 +23,7 @@ class Backbone {
   Backbone(const std::vector<DeckContact>& contacts, double friction_coefficient)
       : contacts_(contacts), friction_(friction_coefficient) {
     for (const DeckContact& contact : contacts) {
-      depth_.push_back(ratio_of_whole(contact) / friction_);
+      depth_.push_back(stiffness_ratio_of_whole(*contact.law, contact.indentation) / friction_);
       end_ = std::max(end_, (contact.indentation - contact.law->first_touch()) / depth_.back());
       force_ += friction_ * contact.law->force(contact.indentation) / double(contacts.size());
       for (const double depth : contact.law->break_points())
@@ -59,20 +60,6 @@ class Backbone {
   double end() const { return end_; }
 
  private:
-  /// K_t/K of the whole contact, ∫K_t dδ/F, with which it carries μF when all springs slip.
-  static double ratio_of_whole(const DeckContact& contact) {
-    const ContactLaw& law = *contact.law;
-    const double low = law.first_touch(), high = contact.indentation;
-    if (!std::isfinite(low)) return law.stiffness_ratio(high);
-    std::vector<double> points{low};
-    for (const double point : law.break_points())
-      if (point > low && point < high) points.push_back(point);
-    points.push_back(high);
-    return integrate([&](double one) { return law.tangential_stiffness(one); }, points, 1e-12)
-               .value /
-           law.force(high);
-  }
-
   const std::vector<DeckContact>& contacts_;
   std::vector<double> depth_;  // depth of slip divided by the displacement, for each contact
   double friction_, force_ = 0, end_ = 0;

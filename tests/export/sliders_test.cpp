@@ -148,6 +148,29 @@ TEST_CASE("Sliders of a curve whose K_t/K varies carry its friction force", "[ex
   }
 }
 
+TEST_CASE("Sliders of a curve of three thousand loads are as many as asked for", "[export]") {
+  ForceCurve curve{.model = "measured", .nominal_area = area0, .rms_height = 1e-6, .samples = {}};
+  for (int i = 0; i < 3000; ++i) {
+    const double force = std::exp(1e-2 / 3 * i), stiffness = force / 3e-8;
+    curve.samples.push_back({.indentation = 1e-10 * i,
+                             .force = force,
+                             .pressure = force / area0,
+                             .normal_stiffness = stiffness,
+                             .tangential_stiffness = (0.8 + 0.1 * i / 3000) * stiffness});
+  }
+  const DeckContact contact =
+      deck_contact(CurveContact{curve, 0.8, {ControlQuantity::normal_force, {1000}}, "curve"});
+  const auto sliders = sliders_of(contact, 60);
+  CHECK(sliders.size() > 50);
+  double force = 0;
+  for (const auto& slider : sliders) force += slider[1];
+  CHECK(force == Approx(friction * 1000));
+  const JointLoss joint =
+      joint_loss(*contact.law, at_force(1000), TangentialForce{0.5 * force}, friction);
+  // With 60 sliders the loss is right to a per cent.
+  CHECK(loss_of(sliders, 0.5 * force) == Approx(joint.work_per_cycle).epsilon(1e-2));
+}
+
 TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by default",
           "[export]") {
   DeckProblem problem;
