@@ -384,33 +384,18 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
 // In gross sliding, springs that still stick may carry this fraction of the mean normal force.
 constexpr double stuck_share = 0.05;
 
-// Largest speed u_z sin θ at which the friction limits fall while the bodies touch, divided by ω.
-double fastest_of(const ContactLaw& law, double mean, double amplitude) {
-  return amplitude * std::sin(pi * std::min(0.5, contact_time(law, mean, amplitude)));
-}
-
-// Cycle mean of the force under δ = mean + amplitude cosθ. The regime needs no more digits than the
-// trapezoidal rule gives.
-double mean_force_of(const ContactLaw& law, double mean, double amplitude) {
-  constexpr int phases = 64;
-  double sum = 0;
-  for (int i = 0; i < phases; ++i)
-    sum += law.force(mean + amplitude * std::cos(pi * (i + 0.5) / phases));
-  return sum / phases;
-}
-
 // Returns whether (almost) all springs slip. Lengths are in units of μ/g. displacement: u_x under
 // oscillation at equal frequency, v/ω under a drag. excursion: distance between the turning points
-// of the drag. stick: loss without slip for a tangential displacement of 1.
+// of the drag. stick: loss without slip for a tangential displacement of 1. stuck: force that springs
+// which still stick may carry.
 bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement,
-            double excursion, double stick) {
+            double excursion, double stick, double stuck) {
   const double bottom = motion.mean - motion.amplitude, top = motion.mean + motion.amplitude;
   const double least = law.force(bottom);
-  const double stuck = stuck_share * mean_force_of(law, motion.mean, motion.amplitude);
   // All springs open in each cycle. In an oscillation a spring of depth ζ slips in both halves of
   // the cycle if the displacement exceeds its largest stretch limit δ_max − ζ.
   if (!(least > 0))
-    return motion.drag ? displacement >= fastest_of(law, motion.mean, motion.amplitude)
+    return motion.drag ? displacement >= detail::fastest_opening(law, motion.mean, motion.amplitude)
                        : law.force(top - displacement) <= stuck;
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
@@ -653,9 +638,9 @@ std::vector<MaxMotion> max_motions(const JudgedMotion& motion, const ContactPara
   return motions;
 }
 
-// Decides between no slip, partial slip, lift-off and sliding: first by the verdicts on slip of the springs
-// that open and of those that never open, then by slides(). stretch: μ/g. stick: loss without slip
-// for a tangential displacement of 1.
+// Decides between no slip, partial slip, lift-off and sliding: first by the verdicts on slip of the
+// springs that open and of those that never open, then by slides(). stretch: μ/g. stick: loss
+// without slip for a tangential displacement of 1.
 Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assumptions& assumptions,
                  double stretch, double stick) {
   const Assumption& opening = assumptions.slip_of_opening_springs;
@@ -663,9 +648,12 @@ Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assump
   if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
     return assumptions.regime;
   const bool sticks = opening.verdict == Verdict::holds && closed.verdict == Verdict::holds;
-  if (!sticks &&
-      slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick))
-    return Regime::sliding;
+  if (!sticks) {
+    const double stuck = stuck_share * mean_force_of_cycle(law, motion.mean, motion.amplitude);
+    if (slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick,
+               stuck))
+      return Regime::sliding;
+  }
   if (motion.mean - motion.amplitude < law.first_touch()) return Regime::lifts_off;
   return sticks ? Regime::no_slip : Regime::partial_slip;
 }
@@ -845,7 +833,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const JudgedMotion motion = case_of(law, mean_indentation, drag);
   const double limit = friction_coefficient / law.stiffness_ratio(mean_indentation);
   const double bottom = mean_indentation - amplitude;
-  const double stuck = stuck_share * mean_force_of(law, mean_indentation, amplitude);
+  const double stuck = stuck_share * mean_force_of_cycle(law, mean_indentation, amplitude);
   const double length = length_of(law, mean_indentation, amplitude);
   const DampingResult without = detail::damping_about(given, mean_indentation, drag, 1e-10);
   const SlipLimits slip = slip_limits(law, motion, length);
@@ -863,7 +851,8 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
       .no_slip_excursion = {},
       .no_slip_velocity = limit * slip.displacements.five * omega,
       .sliding_excursion = 2 * limit * depth_of_share(law, bottom, stuck / law.force(bottom)),
-      .critical_velocity = limit * fastest_of(law, mean_indentation, amplitude) * omega,
+      .critical_velocity =
+          limit * detail::fastest_opening(law, mean_indentation, amplitude) * omega,
       .full_stick_ratio = without.work_per_cycle / without.small_amplitude_work};
   if (velocities.empty()) return map;
   Springs springs(law, *motion.path, false,
@@ -885,7 +874,8 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
       }
       regimes.push_back(may_stick && !(excursion > limits.five)
                             ? (lifts_off ? Regime::lifts_off : Regime::no_slip)
-                        : slides(law, motion, displacement, excursion, slip.stick) ? Regime::sliding
+                        : slides(law, motion, displacement, excursion, slip.stick, stuck)
+                            ? Regime::sliding
                         : lifts_off ? Regime::lifts_off
                                     : Regime::partial_slip);
       if (!(stick > 0)) continue;

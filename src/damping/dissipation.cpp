@@ -389,6 +389,12 @@ double contact_time(const ContactLaw& law, double mean_indentation, double norma
   return std::acos(std::clamp((touch - mean_indentation) / normal_amplitude, -1.0, 1.0)) / pi;
 }
 
+double detail::fastest_opening(const ContactLaw& law, double mean_indentation,
+                               double normal_amplitude) {
+  const double share = std::min(0.5, contact_time(law, mean_indentation, normal_amplitude));
+  return normal_amplitude * std::sin(pi * share);
+}
+
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
   require_finite(mean_indentation, "indentation");
   require_amplitude(amplitude);

@@ -55,6 +55,11 @@ std::optional<std::string> warning_of_held_indentation(std::span<const DampingRe
 DampingResult damping_about(const ContactLaw& law, double mean_indentation, const Motion& motion,
                             double tolerance);
 
+/// The fastest motion u_z ω sin θ of the indentation while the bodies touch, divided by ω, m: the
+/// speed at which the friction limits fall, in units of μ/g. It is u_z unless the contact lasts less
+/// than half a period.
+double fastest_opening(const ContactLaw& law, double mean_indentation, double normal_amplitude);
+
 /// As steady_sliding(), but for a mean indentation that is not the indentation at rest.
 std::vector<SteadySliding> steady_sliding_about(const ContactLaw& law, double mean_indentation,
                                                 const NormalOscillation& normal,

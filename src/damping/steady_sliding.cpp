@@ -270,9 +270,9 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
   common.relaxation_damping = stuck.damping_constant;
   // Velocity at which the friction limit of a spring falls fastest in a cycle; while the bodies
   // touch, it may fall more slowly.
-  const double fastest = friction_coefficient / stiffness_ratio * amplitude * omega;
+  const double limit = friction_coefficient / stiffness_ratio, fastest = limit * amplitude * omega;
   common.critical_velocity =
-      fastest * std::sin(pi * std::min(0.5, contact_time(law, stuck.indentation, amplitude)));
+      limit * omega * detail::fastest_opening(law, stuck.indentation, amplitude);
   const double min_friction = friction_coefficient * law.force(low);
   common.static_friction_coefficient = min_friction / common.mean_force;
   if (amplitude > 0)
