@@ -188,14 +188,9 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
       if (needed <= top) break;
       const auto next = detail::further_indentation(law, needed, full, hold);
       if (!next)
-        require(false, "normal_amplitude", amplitude,
-                fmt::format(
-                    "m presses the surface beyond full contact at the pressure {}; at most "
-                    "{} is possible there",
-                    format_quantity(pressure, Dimension::pressure, 3),
-                    format_quantity(detail::possible_amplitude(law, force, amplitude, hold,
-                                                               hold == Hold::force ? top : full),
-                                    Dimension::length, 3)));
+        detail::refuse_full_contact(amplitude, pressure,
+                                    detail::possible_amplitude(law, force, amplitude, hold,
+                                                               hold == Hold::force ? top : full));
       const double length = law.force(top) / law.normal_stiffness(top);
       NormalContactState state =
           press(body.surface, body.material.contact_modulus,

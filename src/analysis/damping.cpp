@@ -14,6 +14,7 @@
 
 #include "damping/max_motion.hpp"
 #include "damping/phase_quadrature.hpp"
+#include "damping/surface_law.hpp"
 
 namespace salebra {
 namespace {
@@ -169,12 +170,9 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = solution.results[i];
-    require(
-        std::isnan(load.possible_amplitude), "normal_amplitude", detail::normal_amplitude(one),
-        fmt::format("m presses the surface beyond full contact at the pressure {}; at most {} is "
-                    "possible there",
-                    format_quantity(pressures[i], Dimension::pressure, 3),
-                    format_quantity(load.possible_amplitude, Dimension::length, 3)));
+    if (!std::isnan(load.possible_amplitude))
+      detail::refuse_full_contact(detail::normal_amplitude(one), pressures[i],
+                                  load.possible_amplitude);
     static_cast<Loss&>(result) = load;
     // The assumptions are judged by the law, so the result keeps the mean indentation of the law.
     result.mean_force = load.mean_force;
@@ -378,10 +376,9 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
       result.forget();
     else if (!surface)
       add_slip(result, law, one.motion, problem.parameters, problem.steps, context);
-    if (!surface && dropped.empty())
-      dropped = drop_uncertain(result);
-    else if (!surface)
-      drop_uncertain(result);
+    if (!surface)
+      if (const std::string why_dropped = drop_uncertain(result); dropped.empty())
+        dropped = why_dropped;
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
     solution.assumptions.push_back(
         assumptions_of_case(solution.contact, one, result, problem.parameters));

@@ -19,8 +19,8 @@
 #include <salebra/generators/shapes.hpp>
 #include <salebra/surface/moments.hpp>
 
-#include "damping/continued_law.hpp"
 #include "damping/judge.hpp"
+#include "damping/surface_law.hpp"
 
 namespace salebra {
 namespace {
@@ -181,10 +181,8 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
   };
   if (hold != Hold::force && point.control == ControlQuantity::indentation) return point.value;
   const NormalContactState rest = at(point);
-  const bool load_given =
-      point.control == ControlQuantity::pressure || point.control == ControlQuantity::normal_force;
   if (hold == Hold::automatic)
-    hold = load_given && amplitude > rest.indentation ? Hold::force : Hold::indentation;
+    hold = point.load_given() && amplitude > rest.indentation ? Hold::force : Hold::indentation;
   if (hold == Hold::indentation || !(rest.force > 0)) return rest.indentation;
   // Neighbouring contacts differ by this factor of the force.
   constexpr double factor = 1.35, lowest = 0.01;
@@ -195,21 +193,20 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
   };
   for (double share = lowest; share < 1; share *= factor) add(at(at_force(share * rest.force)));
   add(rest);
-  const double full =
-      body.boundary == Boundary::periodic
-          ? height_statistics(body.surface).maximum - height_statistics(body.surface).mean
-          : std::numeric_limits<double>::infinity();
+  const double full = body.boundary == Boundary::periodic ? detail::full_contact(body.surface)
+                                                          : std::numeric_limits<double>::infinity();
   for (;;) {
     const TabulatedLaw law(curve, 1);
-    const double middle =
-        indentation_at_mean_force(detail::ContinuedLaw(law), rest.force, amplitude);
+    const double middle = detail::mean_indentation(law, rest.force, amplitude, hold);
     const double top = law.highest_indentation();
     if (middle + amplitude <= top) return middle;
-    const double next = std::min(
-        middle + amplitude, top + std::log(factor) * law.force(top) / law.normal_stiffness(top));
-    require(next < full, "normal_amplitude", amplitude,
-            "m presses the surface beyond full contact; reduce the amplitude or the load");
-    add(at(at_indentation(next)));
+    const auto next = detail::further_indentation(law, middle + amplitude, full, hold);
+    if (!next)
+      detail::refuse_full_contact(
+          amplitude, rest.mean_pressure,
+          detail::possible_amplitude(law, rest.force, amplitude, hold, top));
+    const double length = law.force(top) / law.normal_stiffness(top);
+    add(at(at_indentation(std::min(*next, top + std::log(factor) * length))));
   }
 }
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -29,7 +34,7 @@ class RatioOfLoads {
 
   bool empty() const { return points_.empty(); }
   double at(double force) const {
-    const std::size_t above = place(force);
+    const std::size_t above = index_above(force);
     if (above == 0) return points_.front().ratio;
     if (above == points_.size()) return points_.back().ratio;
     const auto& [low, high] = std::pair(points_[above - 1], points_[above]);
@@ -38,7 +43,7 @@ class RatioOfLoads {
   }
   /// dρ/d ln F.
   double slope(double force) const {
-    const std::size_t above = place(force);
+    const std::size_t above = index_above(force);
     if (above == 0 || above == points_.size()) return 0;
     const auto& [low, high] = std::pair(points_[above - 1], points_[above]);
     return (high.ratio - low.ratio) / std::log(high.force / low.force);
@@ -57,7 +62,7 @@ class RatioOfLoads {
   }
 
  private:
-  std::size_t place(double force) const {
+  std::size_t index_above(double force) const {
     return std::size_t(std::ranges::upper_bound(points_, force, {}, &StiffnessRatio::Point::force) -
                        points_.begin());
   }
@@ -134,6 +139,16 @@ inline double possible_amplitude(const ContactLaw& law, double force, double ask
   }
   // The guess of the mean indentation is off by some per mille.
   return 0.99 * possible;
+}
+
+/// Throws InvalidInput for an oscillation that presses a surface beyond full contact. possible: the
+/// largest amplitude that does not, m.
+inline void refuse_full_contact(double amplitude, double pressure, double possible) {
+  require(false, "normal_amplitude", amplitude,
+          fmt::format("m presses the surface beyond full contact at the pressure {}; at most {} is "
+                      "possible there",
+                      format_quantity(pressure, Dimension::pressure, 3),
+                      format_quantity(possible, Dimension::length, 3)));
 }
 
 /// The indentation of a further contact for an oscillation that reaches `needed`, above the law's

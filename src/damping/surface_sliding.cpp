@@ -194,9 +194,7 @@ class SurfaceSlidingRun {
   OnGrid wide_on(const Surface& surface, const Progress& progress) {
     const std::vector<StiffnessSample> contacts = wide_.contacts(surface, progress);
     if (const double possible = wide_.possible_amplitude(); !std::isnan(possible))
-      require(false, "normal_amplitude", motion_.normal.normal_amplitude,
-              "m presses the surface beyond full contact; at most " +
-                  format_quantity(possible, Dimension::length, 3) + " is possible");
+      detail::refuse_full_contact(motion_.normal.normal_amplitude, load_.pressure, possible);
     if (contacts.empty()) throw NotConverged("sliding: a contact of the surface did not converge");
     const auto states = [&](const std::vector<StiffnessSample>& some,
                             const detail::RatioOfLoads& ratio, detail::BelowTable below) {
