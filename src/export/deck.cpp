@@ -179,8 +179,8 @@ DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& c
       if (tangential)
         law.tangential_stiffness[row] += weight * contact.law->tangential_stiffness(indentation);
     }
-  for (const double stiffness : law.normal_stiffness)
-    if (!problem.conductivity.empty())
+  if (!problem.conductivity.empty())
+    for (const double stiffness : law.normal_stiffness)
       law.conductance.push_back(
           conductances(stiffness, problem.contact_modulus,
                        {.conductivity = problem.conductivity, .resistivity = {}})

@@ -23,7 +23,7 @@ namespace {
 
 /// The smallest amplitude that is possible where the motion presses a surface beyond full contact;
 /// NaN if it does not.
-double least_possible(const StudyResult& result) {
+double min_possible_amplitude(const StudyResult& result) {
   double least = ForceSample::unknown;
   for (const Realisation& realisation : result.realisations)
     for (const DampingPoint& point : realisation.of(ContactModel::bem).damping)
@@ -54,7 +54,7 @@ void warn_of_full_contact(StudyResult& result) {
       format_quantity(amplitude, Dimension::length, 3), surfaces, result.realisations.size(),
       pressures.size(), result.pressures.size(),
       format_quantity(pressures.front(), Dimension::pressure, 3),
-      format_quantity(least_possible(result), Dimension::length, 3)));
+      format_quantity(min_possible_amplitude(result), Dimension::length, 3)));
 }
 
 void warn_of_held_indentation(StudyResult& result) {
@@ -119,7 +119,7 @@ void warn(StudyResult& result) {
   warn_of_full_contact(result);
   warn_of_held_indentation(result);
   if (!result.configuration.adhesion && lost > 0 && std::size_t(lost) == total &&
-      std::isnan(least_possible(result))) {
+      std::isnan(min_possible_amplitude(result))) {
     result.warnings.push_back(
         "the normal oscillation leaves the computed range of the contact at every force; reduce "
         "normal_amplitude or widen the pressures");

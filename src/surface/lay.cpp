@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
 #include <salebra/surface/correlation.hpp>
+#include <salebra/surface/crop.hpp>
 #include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -267,35 +268,19 @@ std::string lay_in_words(const SurfaceLay& lay) {
   return fmt::format("ground-like: lay {}° from x, {}", degrees, ratio);
 }
 
-namespace {
-
-// Skewness of the defined heights of a part of a surface about their own mean.
-double skewness_of(const Eigen::Ref<const Field>& heights) {
-  double count = 0, mean = 0, square = 0, cube = 0;
-  for (const double height : heights.reshaped())
-    if (std::isfinite(height)) mean += height, ++count;
-  mean /= count;
-  for (const double height : heights.reshaped()) {
-    if (!std::isfinite(height)) continue;
-    const double out = height - mean;
-    square += out * out, cube += out * out * out;
-  }
-  return cube / count / std::pow(square / count, 1.5);
-}
-
-}  // namespace
-
 double significant_skewness(const Surface& surface) {
   if (surface.communicator.size() > 1) return 0;
   const double skewness = height_statistics(surface).skewness;
   if (!(std::abs(skewness) > most_skewness)) return 0;
   // In a map of few hills the correlation is chance too. Every quarter of a skew surface is skew.
-  const Index rows = surface.heights.rows() / 2, columns = surface.heights.cols() / 2;
-  for (const Index i : {Index{0}, surface.heights.rows() - rows})
-    for (const Index j : {Index{0}, surface.heights.cols() - columns})
-      if (!(skewness_of(surface.heights.block(i, j, rows, columns)) * std::copysign(1, skewness) >
-            most_skewness / 2))
-        return 0;
+  const Grid2D& grid = surface.grid;
+  if (std::min(grid.nx, grid.ny) < 4) return 0;
+  const double x = grid.lx / 2, y = grid.ly / 2;
+  for (const Rectangle& quarter : {Rectangle{0, 0, x, y}, Rectangle{x, 0, grid.lx, y},
+                                   Rectangle{0, y, x, grid.ly}, Rectangle{x, y, grid.lx, grid.ly}})
+    if (!(height_statistics(cropped(surface, quarter)).skewness * std::copysign(1, skewness) >
+          most_skewness / 2))
+      return 0;
   const CorrelationMap map = correlation_map(surface);
   const Index origin = map.origin();
   const double variance = map.autocorrelation(origin, 0), points = map.pairs(origin, 0);
