@@ -319,8 +319,10 @@ void add_heights(Command& command, GenerateArguments& arguments) {
       .add_option("--heights-from", arguments.heights_from,
                   "take the distribution of heights from this surface, less its trend")
       ->file(FileUse::input);
-  add_choice<Exact>(command, "--exact", arguments.exact,
-                    "whether the heights or the spectrum are exact; default heights");
+  add_choice<Exact>(
+      command, "--exact", arguments.exact,
+      "whether the heights or the spectrum are exact, or both belong to the random process "
+      "that is sampled; default heights");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "base/fft.hpp"
 #include "base/memory.hpp"
 #include "synthesis.hpp"
+#include "translation.hpp"
 
 namespace salebra {
 namespace {
@@ -153,6 +154,8 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
           "must lie in 0 <= tolerance < 1");
   spectrum.require_carried_by(grid);
   require_memory(grid, double(non_gaussian_memory(grid)), "a non-Gaussian surface");
+  if (options.exact == Exact::process)
+    return detail::translation_process(grid, spectrum, distribution, seed, options);
   NonGaussianSurface result;
   const std::function<bool()> keep_going = [&] {
     return !options.on_progress ||

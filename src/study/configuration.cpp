@@ -8,6 +8,7 @@
 #include <numbers>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/twin_file.hpp>
@@ -162,6 +163,30 @@ SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& fold
   return psd;
 }
 
+SurfaceTexture read_texture(TomlTable& table) {
+  SurfaceTexture texture;
+  for (const auto& [key, stretch] :
+       {std::pair{"stretch_along", &texture.lay.along}, {"stretch_across", &texture.lay.across}})
+    if (const auto given = table.quantity(key, Dimension::dimensionless)) {
+      check_positive(table, key, *given);
+      *stretch = *given;
+    }
+  if (const auto angle = table.quantity("lay_angle", Dimension::angle)) {
+    table.check(table.has("stretch_along") || table.has("stretch_across"), "lay_angle",
+                "is given without stretch_along or stretch_across; a lay needs one of them");
+    texture.lay.angle = *angle;
+  }
+  const auto skewness = table.quantity("skewness", Dimension::dimensionless),
+             kurtosis = table.quantity("kurtosis", Dimension::dimensionless);
+  table.check(!skewness || kurtosis, "skewness",
+              "needs kurtosis, which is 3 for Gaussian heights; give both");
+  texture.skewness = skewness.value_or(0);
+  texture.kurtosis = kurtosis.value_or(3);
+  if (!texture.gaussian())
+    table.located([&] { johnson_heights(texture.skewness, texture.kurtosis); });
+  return texture;
+}
+
 /// twin: file with the spectra of a surface twin, which replace the spectrum in the table; empty:
 /// none.
 GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
@@ -170,7 +195,10 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
   GeneratedSurfaces surfaces;
   surfaces.grid = read_grid(table);
   if (!twin.empty()) {
-    if (!table.text("psd_table") && !table.text("twin")) read_self_affine(table, lists);
+    if (!table.text("psd_table") && !table.text("twin")) {
+      read_self_affine(table, lists);
+      read_texture(table);
+    }
     surfaces.tables = tables_of(read_twin_draws(twin), surfaces.grid);
   } else if (table.has("psd_table")) {
     table.check(lists.hurst.empty() && lists.rolloff.empty() && lists.short_cutoff.empty(),
@@ -186,6 +214,10 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
     surfaces.method =
         *method == 0 ? GenerationMethod::filtered_noise : GenerationMethod::random_phase;
   }
+  if (surfaces.tables.size() < 2) surfaces.textures = {read_texture(table)};
+  for (const SurfaceTexture& texture : surfaces.textures)
+    table.check(texture.gaussian() || surfaces.method == GenerationMethod::filtered_noise, "method",
+                "random-phase makes only Gaussian heights; leave it out with a skewness");
   surfaces.seeds = read_seeds(table);
   // If the ensemble varies sizes or points, each combination is checked later; this checks the
   // spectrum on the grid of the table.
@@ -395,21 +427,36 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
 
 namespace {
 
-std::unique_ptr<const IsotropicSpectrum> spectrum_at(const GeneratedSurfaces& surfaces,
-                                                     std::size_t index) {
+const SurfaceTexture& texture_at(const GeneratedSurfaces& surfaces, std::size_t index) {
+  return surfaces.textures[surfaces.textures.size() == 1 ? 0 : index];
+}
+
+std::unique_ptr<const IsotropicSpectrum> radial_spectrum_at(const GeneratedSurfaces& surfaces,
+                                                            std::size_t index) {
   if (surfaces.tables.empty()) return std::make_unique<SelfAffineSpectrum>(surfaces.spectrum);
   const SpectrumTable& table = surfaces.tables[index];
   return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
 }
 
+std::unique_ptr<const Spectrum> spectrum_at(const GeneratedSurfaces& surfaces, std::size_t index) {
+  std::unique_ptr<const IsotropicSpectrum> radial = radial_spectrum_at(surfaces, index);
+  const Anisotropy& lay = texture_at(surfaces, index).lay;
+  if (lay.along == 1 && lay.across == 1) return radial;
+  return std::make_unique<AnisotropicSpectrum>(std::move(radial), lay);
+}
+
 }  // namespace
 
-std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of_all() const {
+std::unique_ptr<const Spectrum> GeneratedSurfaces::spectrum_of_all() const {
   return spectrum_at(*this, 0);
 }
 
-std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of(std::uint64_t seed) const {
+std::unique_ptr<const Spectrum> GeneratedSurfaces::spectrum_of(std::uint64_t seed) const {
   return spectrum_at(*this, table_of(seed));
+}
+
+const SurfaceTexture& GeneratedSurfaces::texture_of(std::uint64_t seed) const {
+  return texture_at(*this, table_of(seed));
 }
 
 std::size_t GeneratedSurfaces::table_of(std::uint64_t seed) const {

@@ -32,7 +32,8 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
   std::string bytes = bytes_of(std::string(magic), std::string(version()), seed,
                                wants_picture(point, seed), point.surfaces.index());
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&point.surfaces)) {
-    bytes += bytes_of(generated->grid, generated->spectrum, generated->method, generated->tables);
+    bytes += bytes_of(generated->grid, generated->spectrum, generated->method, generated->tables,
+                      generated->textures);
   } else {
     const auto& measured = std::get<MeasuredSurface>(point.surfaces);
     bytes += bytes_of(checksum_of(measured.file), checksum_of(sidecar_of(measured.file)),

@@ -182,9 +182,12 @@ void warn_of_ensemble(StudyResult& result) {
     const double shortest = 2 * std::numbers::pi / recipe->spectrum_of_all()->highest_wavenumber();
     const double size = std::min(result.grid.lx, result.grid.ly);
     const SelfAffineParameters& spectrum = recipe->spectrum;
+    const Anisotropy& lay = recipe->textures.front().lay;
     // For a tabulated spectrum the roll-off wavelength is unknown, so the check is skipped.
-    const double longest =
-        recipe->tables.empty() ? spectrum.rolloff.value_or(spectrum.long_cutoff.value_or(size)) : 0;
+    const double longest = recipe->tables.empty()
+                               ? std::max(lay.along, lay.across) *
+                                     spectrum.rolloff.value_or(spectrum.long_cutoff.value_or(size))
+                               : 0;
     const double cell = std::max(result.grid.dx(), result.grid.dy());
     // The factor 1 + 1e-9 allows for rounding: a shortest wave of exactly 8 cells must not give a
     // warning.

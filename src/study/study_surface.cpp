@@ -8,6 +8,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
@@ -24,6 +25,14 @@ namespace {
 Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
                  const Communicator& communicator) {
   const auto spectrum = recipe.spectrum_of(seed);
+  if (const SurfaceTexture& texture = recipe.texture_of(seed); !texture.gaussian()) {
+    require_that(communicator.size() == 1, "skewness",
+                 "heights that are not Gaussian are made by a single process only");
+    NonGaussianSurface made =
+        non_gaussian(recipe.grid, *spectrum, johnson_heights(texture.skewness, texture.kurtosis),
+                     seed, {.exact = Exact::process, .on_progress = progress});
+    return std::move(made.surface);
+  }
   return recipe.method == GenerationMethod::random_phase
              ? random_phase(recipe.grid, *spectrum, seed, progress, communicator)
              : filtered_noise(recipe.grid, *spectrum, seed, progress, communicator);
@@ -105,6 +114,11 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
     warning = warning_of_slope(slope);
     grid = recipe->grid;
+    // An isotropic recipe needs no look at a surface, which might have a lay by chance.
+    if (const SurfaceTexture& texture = recipe->textures.front();
+        !texture.gaussian() || texture.lay.peklenik() != 1)
+      warn_of_lay(study_surface(configuration, recipe->seeds.front(), {}, communicator),
+                  configuration, loads);
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
     const Surface surface = measured_surface(measured, communicator, &loads.warnings);

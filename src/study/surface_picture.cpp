@@ -42,10 +42,17 @@ std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& 
   return law;
 }
 
-std::vector<double> prescribed_law(const RadialSpectrum& rings, const IsotropicSpectrum& spectrum) {
+std::vector<double> prescribed_law(const RadialSpectrum& rings, const Spectrum& spectrum) {
+  // Like the rings, the mean over all directions; an isotropic spectrum needs only one.
+  constexpr int directions = 360;
+  const bool isotropic = dynamic_cast<const IsotropicSpectrum*>(&spectrum) != nullptr;
   std::vector<double> law;
   for (const double q : rings.wavenumber) {
-    const double density = spectrum.radial_density(q);
+    double density = isotropic ? spectrum.density(q, 0) : 0;
+    for (int k = 0; !isotropic && k < directions; ++k) {
+      const double angle = std::numbers::pi * k / directions;
+      density += spectrum.density(q * std::cos(angle), q * std::sin(angle)) / directions;
+    }
     law.push_back(density > 0 ? density : unknown);
   }
   return law;

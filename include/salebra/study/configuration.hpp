@@ -14,6 +14,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/surface_damping.hpp>
+#include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -72,6 +73,24 @@ std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
 
+/// What distinguishes a surface with a lay and skew heights from an isotropic Gaussian one with the
+/// same radial spectrum. Heights of other skewness or kurtosis have Johnson's distribution and are
+/// samples of a translation process (Exact::process).
+struct SurfaceTexture {
+  Anisotropy lay;
+  double skewness = 0, kurtosis = 3;
+
+  bool gaussian() const { return skewness == 0 && kurtosis == 3; }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<SurfaceTexture>) {
+  using S = SurfaceTexture;
+  visit(&S::lay, Kept{"lay", "stretch of the spectrum"});
+  visit(&S::skewness, Kept{"skewness", "skewness of the heights"});
+  visit(&S::kurtosis, Kept{"kurtosis", "kurtosis of the heights, 3 for a Gaussian"});
+  visit(&S::gaussian, Kept{"gaussian", "whether the heights are Gaussian"});
+}
+
 /// An ensemble of random surfaces, one for each seed.
 struct GeneratedSurfaces {
   Grid2D grid;
@@ -84,17 +103,20 @@ struct GeneratedSurfaces {
   /// that two consecutive seeds share a table. Such pairs separate the uncertainty that the scans
   /// leave open from the variation from place to place.
   std::vector<SpectrumTable> tables = {};
+  /// One texture for all surfaces, or one for each table.
+  std::vector<SurfaceTexture> textures = {{}};
 
   /// Returns the spectrum of the first table or, without tables, the self-affine spectrum.
-  std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
-  std::unique_ptr<const IsotropicSpectrum> spectrum_of(std::uint64_t seed) const;
+  std::unique_ptr<const Spectrum> spectrum_of_all() const;
+  std::unique_ptr<const Spectrum> spectrum_of(std::uint64_t seed) const;
+  const SurfaceTexture& texture_of(std::uint64_t seed) const;
   /// Index of the table of a seed; 0 if all seeds have the same spectrum.
   std::size_t table_of(std::uint64_t seed) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<GeneratedSurfaces>) {
   using S = GeneratedSurfaces;
-  keep(visit, &S::grid, &S::spectrum, &S::method, &S::seeds, &S::tables);
+  keep(visit, &S::grid, &S::spectrum, &S::method, &S::seeds, &S::tables, &S::textures);
 }
 
 /// One surface from a file.

@@ -45,13 +45,15 @@ HeightDistribution johnson_heights(double skewness, double kurtosis);
 HeightDistribution sampled_heights(std::vector<double> heights);
 
 /// The property that is exact in the result, heights (their distribution) or spectrum; the
-/// iteration makes the remaining one as accurate as possible.
-enum class Exact { heights, spectrum };
+/// iteration makes the remaining one as accurate as possible. With `process` both are those of the
+/// random process from which the surface is a sample, as for the Gaussian surfaces of
+/// filtered_noise(): skewness and rms height fluctuate from seed to seed.
+enum class Exact { heights, spectrum, process };
 
 template <>
 struct EnumNames<Exact> {
   static constexpr auto values = std::to_array<std::pair<Exact, std::string_view>>(
-      {{Exact::heights, "heights"}, {Exact::spectrum, "spectrum"}});
+      {{Exact::heights, "heights"}, {Exact::spectrum, "spectrum"}, {Exact::process, "process"}});
 };
 
 struct NonGaussianOptions {
@@ -69,8 +71,9 @@ struct NonGaussianSurface {
   Surface surface;
   int iterations = 0;
   /// Deviation of the mode amplitudes |a| from those of the spectrum, √(Σ(|a| −
-  /// a_target)²/Σa_target²) over all modes, for the surface with exact heights. It stays above 0 if
-  /// height distribution and spectrum cannot be exact together on this grid.
+  /// a_target)²/Σa_target²) over all modes, for the surface with exact heights, or for the means of
+  /// |a|² of the process. It stays above 0 if height distribution and spectrum cannot be exact
+  /// together on this grid.
   double spectrum_mismatch = 0;
   /// `converged`: the mismatch has stopped falling. `interrupted`: the surface is that of the last
   /// finished iteration.
@@ -96,11 +99,14 @@ constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
 /// It iterates the amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn,
 /// it replaces the heights by the heights of the distribution with the same ranks, and the mode
 /// amplitudes by those of the spectrum with the same phases. It starts from random_phase of the
-/// seed, whose mode powers are the target and whose rms height is kept. The bits are the same for
+/// seed, whose mode powers are the target and whose rms height is kept. With Exact::process the
+/// surface is h = g(z) with an increasing function g and a Gaussian z by filtered_noise() of the
+/// seed (translation process); the spectrum of z is corrected until that of h is the given one in
+/// the mean [Yamazaki and Shinozuka (1988)]. The bits are the same for
 /// every thread count; since the order of heights depends on all points, a finer grid gives another
 /// surface. The tails of the distribution are truncated: N points reach the quantiles 1/(2N) and 1
 /// − 1/(2N). Throws wherever random_phase does. Memory: non_gaussian_memory(). Cost: two real FFTs
-/// and a sort of all points per iteration.
+/// per iteration and, except for a process, a sort of all points.
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options = {});
