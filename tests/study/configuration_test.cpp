@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/realisation.hpp>
 
 #include "study_text.hpp"
 
 using namespace salebra;
+using Catch::Contains;
 using Catch::StartsWith;
 
 namespace {
@@ -65,6 +69,32 @@ TEST_CASE("A measured surface is looked for beside its configuration", "[configu
   CHECK(surface.file == "/folder/scan.txt");
   CHECK(surface.size_x == 1e-5);
   CHECK(surface.detrend == Detrend::mean);
+}
+
+TEST_CASE("The surfaces of a study have the lay and the heights of their keys", "[configuration]") {
+  const std::string texture =
+      "stretch_along = 4\nlay_angle = \"30deg\"\nskewness = -1\nkurtosis = 5\n";
+  const auto read = [&](const std::string& keys) {
+    return parse(study_text(keys + "seeds = [7]"));
+  };
+  const auto configuration = read(texture);
+  const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
+  const Surface drawn = study_surface(configuration, 7);
+  // The same surface, made by the generators themselves.
+  const AnisotropicSpectrum spectrum(
+      std::make_shared<SelfAffineSpectrum>(SelfAffineParameters{
+          .hurst = 0.8, .rolloff = 1e-6, .short_cutoff = 0.5e-6, .rms_height = 10e-9}),
+      {.along = 4, .angle = std::numbers::pi / 6});
+  const auto made =
+      non_gaussian(surfaces.grid, spectrum, johnson_heights(-1, 5), 7, {.exact = Exact::process});
+  CHECK((drawn.heights == made.surface.heights).all());
+  const auto warnings = study_loads(configuration).warnings;
+  CHECK(std::ranges::any_of(warnings, [](const std::string& w) { return w.contains("lay"); }));
+  CHECK_THROWS_WITH(read("skewness = -1\n"), Contains("surface.skewness"));
+  CHECK_THROWS_WITH(read("lay_angle = 1\n"), Contains("surface.lay_angle"));
+  CHECK_THROWS_WITH(read("stretch_along = -1\n"), Contains("surface.stretch_along"));
+  CHECK_THROWS_WITH(read("skewness = 2\nkurtosis = 3\n"), Contains("kurtosis"));
+  CHECK_THROWS_WITH(read(texture + "method = \"random-phase\"\n"), Contains("surface.method"));
 }
 
 TEST_CASE("Equal frequencies, dead weights and two elastic bodies can be asked for",
