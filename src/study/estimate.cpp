@@ -74,11 +74,26 @@ EnsembleMean student(const std::vector<double>& kept, double divisor) {
   return estimate;
 }
 
+/// The mean, and Student's interval of the mean.
+EnsembleMean student_of_mean(const std::vector<double>& kept) {
+  return student(kept, std::sqrt(double(kept.size())));
+}
+
+/// Replaces limits that reach 0 although all values are positive, mean − a … mean + b, by those of
+/// the logarithm, mean exp(−a/mean) … mean exp(b/mean).
+EnsembleMean kept_positive(EnsembleMean estimate, const std::vector<double>& kept) {
+  const double mean = estimate.mean;
+  if (!(estimate.low <= 0) || !std::ranges::all_of(kept, [](double value) { return value > 0; }))
+    return estimate;
+  return {mean, mean * std::exp(estimate.low / mean - 1),
+          mean * std::exp(estimate.high / mean - 1)};
+}
+
 }  // namespace
 
 EnsembleMean student_mean(const std::vector<double>& values) {
   const std::vector<double> kept = known(values);
-  return student(kept, std::sqrt(double(kept.size())));
+  return kept_positive(student_of_mean(kept), kept);
 }
 
 EnsembleMean prediction(const std::vector<double>& values) {
@@ -122,13 +137,13 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
     }
   };
   parallel::for_slabs(resamples_, resample_slab, Index(resamples_) * count);
-  const double half = student_mean(kept).high - sample.mean;
+  const double half = student_of_mean(kept).high - sample.mean;
   const auto arm = [&](double statistic) {
     return std::clamp(statistic * sample.deviation, half / 2, 2 * half);
   };
   estimate.low = sample.mean - arm(quantile(statistics, 0.975));
   estimate.high = sample.mean + arm(-quantile(statistics, 0.025));
-  return estimate;
+  return kept_positive(estimate, kept);
 }
 
 }  // namespace salebra

@@ -93,6 +93,20 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
   CHECK_THROWS_AS(Bootstrap(10), InvalidInput);
 }
 
+TEST_CASE("An interval of positive values is positive", "[ensemble]") {
+  // Two values: t = 12.7062 with one degree of freedom.
+  const double half = 12.7062 * std::sqrt(0.5) / std::sqrt(2.0);
+  const EnsembleMean two = student_mean({1, 2});
+  CHECK(two.low == Approx(1.5 * std::exp(-half / 1.5)).epsilon(1e-5));
+  CHECK(two.high == Approx(1.5 * std::exp(half / 1.5)).epsilon(1e-5));
+  const std::vector<double> skew{0.01, 0.012, 0.02, 0.05, 0.9, 6};
+  const EnsembleMean resampled = Bootstrap().mean(skew);
+  CHECK(resampled.low > 0);
+  CHECK(resampled.low < resampled.mean);
+  // Values of both signs keep Student's limits.
+  CHECK(student_mean({-1, 2}).low < 0);
+}
+
 TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]") {
   // Values in pairs about the mean have no skewness. The differences come from the 20 000
   // resamples, 1 % of the width, and from the kurtosis of forty values, a few per cent.
