@@ -270,6 +270,7 @@ std::string adhesion_table(const StudyResult& result) {
   };
   return text + "\nCycle of mean gaps\n" +
          line("  pull-off       ", Dimension::pressure, &AdhesiveCycleNumbers::pull_off_pressure) +
+         line(", by the steps +", Dimension::pressure, &AdhesiveCycleNumbers::pull_off_error) +
          line("\n  adhesion work  ", Dimension::energy,
               &AdhesiveCycleNumbers::adhesion_work_per_cycle) +
          line(", by the steps ±", Dimension::energy, &AdhesiveCycleNumbers::adhesion_work_error) +

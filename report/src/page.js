@@ -31,7 +31,7 @@ function cards(point) {
     found.push(absent("a fitted force law"));
   }
   const adhesion = point.adhesion, pull = adhesion?.pull_off_pressure, work = adhesion?.adhesion_work_per_cycle;
-  if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)} ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} (error of its steps)`]));
+  if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(adhesion.pull_off_error?.mean) && `up to ${quantity(adhesion.pull_off_error.mean, "Pa", 2)} more (error of its steps)`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)} ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} (error of its steps)`]));
   if (!damping) return found;
   const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
   const shown = slip ? point.solution.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);

@@ -401,7 +401,8 @@ class Point {
     json["mean_gap"] = list(*gaps);
     for (const char* name : {"loading_pressure", "unloading_pressure"})
       json[name] = estimate(std::string("adhesion/ensemble_") + name, 0, gaps->size());
-    for (const char* name : {"pull_off_pressure", "adhesion_work_per_cycle", "adhesion_work_error"})
+    for (const char* name :
+         {"pull_off_pressure", "pull_off_error", "adhesion_work_per_cycle", "adhesion_work_error"})
       for (const char* member : {"mean", "low", "high"})
         if (const auto value = file_.number_attribute(where_ + "adhesion",
                                                       fmt::format("ensemble_{}_{}", name, member)))

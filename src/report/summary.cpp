@@ -79,10 +79,13 @@ std::string validity(const Json& point) {
 std::string adhesion(const Json& point) {
   const Json* found = find(point, {"adhesion"});
   if (found == nullptr) return "";
-  return fmt::format("<p>Adhesion: pull-off at {}; a cycle loses {} ± {} (error of its steps).</p>",
-                     with_interval(find(*found, {"pull_off_pressure"}), Dimension::pressure),
-                     with_interval(find(*found, {"adhesion_work_per_cycle"}), Dimension::energy),
-                     shown(find(*found, {"adhesion_work_error", "mean"}), Dimension::energy));
+  return fmt::format(
+      "<p>Adhesion: pull-off at {}, by up to {} more (error of its steps); a cycle "
+      "loses {} ± {} (error of its steps).</p>",
+      with_interval(find(*found, {"pull_off_pressure"}), Dimension::pressure),
+      shown(find(*found, {"pull_off_error", "mean"}), Dimension::pressure),
+      with_interval(find(*found, {"adhesion_work_per_cycle"}), Dimension::energy),
+      shown(find(*found, {"adhesion_work_error", "mean"}), Dimension::energy));
 }
 
 std::string damping(const Json& point) {

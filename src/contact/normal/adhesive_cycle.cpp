@@ -4,6 +4,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
+#include <tuple>
 
 #include "adhesion_reference.hpp"
 
@@ -33,19 +34,20 @@ class CycleRun {
     return converged;
   }
 
-  /// Returns the maximum pull that the contact bears, Pa. The states appended to `branch` have
-  /// increasing pulls.
-  double pull_off(double first, std::vector<AdhesiveContactState>& branch) {
+  /// Finds the maximum pull that the contact bears. The states appended to `branch` have increasing
+  /// pulls.
+  void pull_off(double first, AdhesiveCycle& cycle) {
+    std::vector<AdhesiveContactState>& branch = cycle.unloading;
     double held = 0, parts = 0, pull = 0;
     for (int halvings = 0; halvings <= bisections;) {
       AdhesiveContactState state = solve(at_pressure(-pull));
       if (!state.converged()) {
         keep(std::move(state), true, branch);
-        return std::numeric_limits<double>::quiet_NaN();
+        return;
       }
       if (state.detached) {
         parts = pull;
-        if (pull == 0) return 0;
+        if (pull == 0) break;
       } else {
         held = pull;
         follow(state);
@@ -54,7 +56,8 @@ class CycleRun {
       halvings += parts > 0;
       pull = parts > 0 ? (held + parts) / 2 : std::max(first, 2 * pull);
     }
-    return held;
+    cycle.pull_off_pressure = held;
+    cycle.pull_off_error = parts - held;
   }
 
  private:
@@ -120,6 +123,38 @@ double error_of_tolerance(const std::vector<AdhesiveContactState>& branch, doubl
   return error;
 }
 
+/// Finds the largest tension at the positions of the unloading, and how much larger it may be
+/// between them. pressure_of_residual: error of the mean pressure, Pa, of a state with residual 1.
+void measure_pull_off(AdhesiveCycle& cycle, double pressure_of_residual) {
+  const auto& branch = cycle.unloading;
+  const auto largest = std::ranges::min_element(branch, {}, &AdhesiveContactState::mean_pressure);
+  if (!(largest->mean_pressure < 0)) {
+    // Only a tension has a maximum to come off at.
+    cycle.pull_off_pressure = cycle.pull_off_error = 0;
+    return;
+  }
+  if (largest == branch.begin() || largest == branch.end() - 1) return;
+  const auto& [before, here, after] = std::tie(largest[-1], largest[0], largest[1]);
+  const double tension = -here.mean_pressure;
+  const double rise = tension + before.mean_pressure, fall = tension + after.mean_pressure;
+  const double inner = before.indentation - here.indentation,
+               outer = here.indentation - after.indentation;
+  // Newton's form of the parabola with the slope s at the middle position and the curvature −2c.
+  const double c = (rise / inner + fall / outer) / (inner + outer);
+  const double s = rise / inner - c * inner;
+  double error = (c > 0 ? s * s / (4 * c) : 0) + c * inner * outer / 4;
+  // A fall that is much steeper than its neighbours is a snap.
+  const double next = largest + 2 < branch.end()
+                          ? (largest[2].mean_pressure - after.mean_pressure) /
+                                (after.indentation - largest[2].indentation)
+                          : 0;
+  constexpr double steeper = 3;
+  if (fall / outer > steeper * std::max(rise / inner, std::abs(next)))
+    error = std::max(error, rise / inner * outer);
+  cycle.pull_off_pressure = tension;
+  cycle.pull_off_error = error + pressure_of_residual * here.adhesion_residual;
+}
+
 /// Evaluates the closed cycle: its work, its reversible amplitude and their errors.
 /// force_of_residual: error of the force, N, of a state with residual 1, whose tension is wrong
 /// everywhere by one unit of the tolerance.
@@ -182,16 +217,12 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
   if (loosest.load_given()) {
     const bool by_force = loosest.control == ControlQuantity::normal_force;
     const double load = by_force ? loosest.value / surface.grid.area() : loosest.value;
-    cycle.pull_off_pressure =
-        run.pull_off(std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle.unloading);
+    run.pull_off(std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle);
     return cycle;
   }
-  const auto least =
-      std::ranges::min_element(cycle.unloading, {}, &AdhesiveContactState::mean_pressure);
-  if (least != cycle.unloading.begin())
-    cycle.pull_off_pressure = std::max(0.0, -least->mean_pressure);
-  measure(cycle,
-          surface.grid.area() * detail::adhesion_reference(surface, contact_modulus, adhesion));
+  const double reference = detail::adhesion_reference(surface, contact_modulus, adhesion);
+  measure_pull_off(cycle, reference);
+  measure(cycle, surface.grid.area() * reference);
   return cycle;
 }
 

@@ -19,10 +19,18 @@ struct AdhesiveCycleOptions {
 
 /// Results of a cycle of adhesive contacts; NaN if unknown.
 struct AdhesiveCycleNumbers {
-  /// Pull-off pressure, Pa, >= 0: the largest mean tension during unloading. NaN without unloading,
-  /// and if the largest tension occurs at the closest position, because then the loading did not
-  /// bring the surfaces close enough.
+  /// Pull-off pressure, Pa, >= 0: the largest mean tension at the positions of the unloading. NaN
+  /// without unloading, if the largest tension occurs at the closest position, because then the
+  /// loading did not bring the surfaces close enough, and if it occurs at the outermost position,
+  /// because then the surfaces have not come off.
   double pull_off_pressure = std::numeric_limits<double>::quiet_NaN();
+  /// How much larger the tension may be between the positions, Pa. In load control the pull-off lies
+  /// between pull_off_pressure and pull_off_pressure + pull_off_error, by bisection. Otherwise, with
+  /// the tensions p at the position of the largest tension and beside it, the parabola through them
+  /// exceeds the largest by e, and the error is e + (2p₀ − p₋ − p₊)/8, the last term for the change
+  /// of the curvature; if the surfaces snap apart behind this position, the tension may rise until
+  /// the next position as it did before.
+  double pull_off_error = std::numeric_limits<double>::quiet_NaN();
   /// Energy lost in a cycle between the outermost and the closest position, ∮F dδ, J. NaN in load
   /// control, where separated surfaces move apart without limit, and if the branches do not meet at
   /// the outermost position.
@@ -49,6 +57,9 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycleNumbers>) 
   using S = AdhesiveCycleNumbers;
   visit(&S::pull_off_pressure,
         Quantity{"pull_off_pressure", pressure, "mean tension at which the surfaces come off"});
+  visit(&S::pull_off_error, Quantity{"pull_off_error", pressure,
+                                     "error of the pull-off pressure by the steps between "
+                                     "positions"});
   visit(&S::adhesion_work_per_cycle,
         Quantity{"adhesion_work_per_cycle", energy, "energy that adhesion loses in a cycle"});
   visit(&S::adhesion_work_error,
@@ -88,7 +99,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
 ///     const AdhesiveCycle cycle = adhesive_cycle(
 ///         surface, 1e9, {at_pressure(1e5), at_pressure(1e6)}, adhesion, {.unload = true});
 /// In load control the unloading then pulls: the load doubles from step to step until the surfaces
-/// separate, and bisection finds the pull-off to 2 %. At given mean gaps and indentations, states
+/// separate, and bisection finds the pull-off to 2 %, which pull_off_error states. At given mean gaps and indentations, states
 /// beyond the minimum of the force are reached.
 /// points     positions, all with the same control quantity, from the loosest to the closest
 /// throws     InvalidInput, before any computation, wherever press_adhesive() does
