@@ -154,10 +154,11 @@ void run(const ExportArguments& arguments, Session& session) {
   const DeckSolution answer = solve(problem);
   constexpr double max_error = 0.01;
   if (std::abs(answer.loss_error) > max_error)
-    session.warn(fmt::format(
-        "the loss at {:g} of the force at which all slips is off by {:.3g} %; give more --sliders "
-        "or a larger --min-force",
-        problem.min_force, 100 * answer.loss_error));
+    session.warn(
+        fmt::format("from {:g} of the force at which all slips on, the loss is off by up to {:.3g} "
+                    "%; give more "
+                    "--sliders or a larger --min-force",
+                    problem.min_force, 100 * answer.loss_error));
   if (problem.format == DeckFormat::fmu && answer.platform.empty())
     session.warn(
         "no C compiler `cc` compiled the unit, so that it contains its sources only; the "

@@ -442,8 +442,8 @@ void add_sliders(Deck& deck, DeckSolution& answer) {
       "force {:.10g}.",
       set.stiffness * stiffness, set.force * newton));
   deck.header.push_back(
-      fmt::format("The loss of a cycle at {:g} of the total force is off by {:.3g} %. Beyond "
-                  "{:.4g} of it one slider holds all that sticks.",
+      fmt::format("The loss of a cycle is off by up to {1:.3g} % from {0:g} of the total force "
+                  "on. Beyond {2:.4g} of it one slider holds all that sticks.",
                   problem.min_force, 100 * set.loss_error, set.resolved));
   deck.sliders = std::move(set.sliders);
 }

@@ -82,7 +82,7 @@ struct SliderSet {
   double stiffness = 0, force = 0;  ///< sums over all sliders, N/m and N
   double resolved =
       0;  ///< tangential force, over μF, beyond which one slider holds all that sticks
-  double loss_error = 0;  ///< relative error of the loss per cycle at the smallest tangential force
+  double loss_error = 0;  ///< largest relative error of the loss per cycle, from min_force on
 };
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
                           int count, double min_force);

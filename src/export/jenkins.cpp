@@ -86,21 +86,45 @@ double loss(const Backbone& backbone, double amplitude) {
   return 8 * backbone.integral(0, amplitude, [&](double x) { return amplitude / 2 - x; });
 }
 
-double loss(const std::vector<Slider>& sliders, double force) {
-  double amplitude = 0, held = 0, stiffness = 0, work = 0;
+/// The displacement amplitude at which the sliders carry a tangential force.
+double amplitude_of(const std::vector<Slider>& sliders, double force) {
+  double amplitude = 0, held = 0, stiffness = 0;
   for (const Slider& slider : sliders) stiffness += slider.stiffness;
-  // Finds the amplitude at which the force is reached. The sliders slip one after another; `held`
-  // is the total force of those that slip.
+  // The sliders slip one after another; `held` is the total force of those that slip.
   for (const Slider& slider : sliders) {
     amplitude = (force - held) / stiffness;
     if (amplitude <= slider.slider_force / slider.stiffness) break;
     held += slider.slider_force;
     stiffness -= slider.stiffness;
   }
+  return amplitude;
+}
+
+double loss(const std::vector<Slider>& sliders, double amplitude) {
+  double work = 0;
   for (const Slider& slider : sliders)
     work +=
         4 * slider.slider_force * std::max(0., amplitude - slider.slider_force / slider.stiffness);
   return work;
+}
+
+/// The largest relative error of the loss: at forces from the smallest to the largest that is
+/// resolved, and at displacements from there on, where the contact slides as a whole.
+double error_of_loss(const SliderSet& set, const Backbone& backbone, double min_force) {
+  double worst = 0;
+  const auto compare = [&](double of_sliders, double amplitude) {
+    const double error = loss(set.sliders, of_sliders) / loss(backbone, amplitude) - 1;
+    if (std::abs(error) > std::abs(worst)) worst = error;
+  };
+  constexpr int steps = 24;
+  for (int k = 0; k <= steps; ++k) {
+    const double force =
+        set.force * min_force * std::pow(set.resolved / min_force, double(k) / steps);
+    compare(amplitude_of(set.sliders, force), backbone.displacement(force));
+  }
+  const double last = backbone.displacement(set.resolved * set.force);
+  for (const double factor : {1., 2., 10.}) compare(factor * last, factor * last);
+  return worst;
 }
 
 }  // namespace
@@ -133,7 +157,7 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     set.sliders.push_back(slider);
   }
   set.sliders.push_back({rest_stiffness, rest_force});
-  set.loss_error = loss(set.sliders, min_force * set.force) / loss(backbone, smallest) - 1;
+  set.loss_error = error_of_loss(set, backbone, min_force);
   return set;
 }
 

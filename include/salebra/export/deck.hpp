@@ -120,7 +120,8 @@ struct DeckSolution {
   double interpolation_error = DeckContact::unknown;
   double tangential_stiffness = DeckContact::unknown;  ///< total K_t of the Jenkins sliders, N/m
   double slip_force = DeckContact::unknown;            ///< total μF, N
-  /// Relative error of the loss of the Jenkins sliders at the force DeckProblem::min_force.
+  /// Largest relative error of the loss of the Jenkins sliders: at tangential forces from
+  /// DeckProblem::min_force to 0.999 of μF, and at displacements beyond, where all slides.
   double loss_error = DeckContact::unknown;
   std::string platform = {};  ///< of the shared library in an FMU; empty: it has sources only
 };
@@ -134,8 +135,8 @@ constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
         Quantity{"interpolation_error", dimensionless, "error of straight lines between rows"});
   visit(&S::tangential_stiffness, quantity::tangential_stiffness);
   visit(&S::slip_force, Kept{"slip_force", "tangential force at which all slips", force});
-  visit(&S::loss_error,
-        Quantity{"loss_error", dimensionless, "error of the loss at the smallest force"});
+  visit(&S::loss_error, Quantity{"loss_error", dimensionless,
+                                 "largest error of the loss from the smallest force on"});
   visit(&S::platform, Kept{"platform", "platform of the shared library in an FMU"});
 }
 
