@@ -108,21 +108,19 @@ double loss(const std::vector<Slider>& sliders, double amplitude) {
   return work;
 }
 
-/// The largest relative error of the loss: at forces from the smallest to the largest that is
-/// resolved, and at displacements from there on, where the contact slides as a whole.
-double error_of_loss(const SliderSet& set, const Backbone& backbone, double min_force) {
+/// The largest relative error of the loss: at the forces of displacements from `first` to `last`,
+/// and at displacements from there on, where the contact slides as a whole.
+double error_of_loss(const SliderSet& set, const Backbone& backbone, double first, double last) {
   double worst = 0;
   const auto compare = [&](double of_sliders, double amplitude) {
     const double error = loss(set.sliders, of_sliders) / loss(backbone, amplitude) - 1;
     if (std::abs(error) > std::abs(worst)) worst = error;
   };
-  constexpr int steps = 24;
+  constexpr int steps = 60;
   for (int k = 0; k <= steps; ++k) {
-    const double force =
-        set.force * min_force * std::pow(set.resolved / min_force, double(k) / steps);
-    compare(amplitude_of(set.sliders, force), backbone.displacement(force));
+    const double amplitude = first * std::pow(last / first, double(k) / steps);
+    compare(amplitude_of(set.sliders, backbone.force(0, amplitude)), amplitude);
   }
-  const double last = backbone.displacement(set.resolved * set.force);
   for (const double factor : {1., 2., 10.}) compare(factor * last, factor * last);
   return worst;
 }
@@ -157,7 +155,7 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     set.sliders.push_back(slider);
   }
   set.sliders.push_back({rest_stiffness, rest_force});
-  set.loss_error = error_of_loss(set, backbone, min_force);
+  set.loss_error = error_of_loss(set, backbone, smallest, last);
   return set;
 }
 
