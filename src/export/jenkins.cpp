@@ -108,20 +108,24 @@ double loss(const std::vector<Slider>& sliders, double amplitude) {
   return work;
 }
 
-/// The largest relative error of the loss: at the forces of displacements from `first` to `last`,
-/// and at displacements from there on, where the contact slides as a whole.
-double error_of_loss(const SliderSet& set, const Backbone& backbone, double first, double last) {
+/// The largest relative error of the loss: at the forces of displacements at and between some of the
+/// edges from `first` on, where the error has its extremes, and at displacements beyond the last
+/// edge, where the contact slides as a whole.
+double error_of_loss(const SliderSet& set, const Backbone& backbone,
+                     const std::vector<double>& edges, double first) {
   double worst = 0;
   const auto compare = [&](double of_sliders, double amplitude) {
     const double error = loss(set.sliders, of_sliders) / loss(backbone, amplitude) - 1;
     if (std::abs(error) > std::abs(worst)) worst = error;
   };
-  constexpr int steps = 60;
-  for (int k = 0; k <= steps; ++k) {
-    const double amplitude = first * std::pow(last / first, double(k) / steps);
-    compare(amplitude_of(set.sliders, backbone.force(0, amplitude)), amplitude);
-  }
-  for (const double factor : {1., 2., 10.}) compare(factor * last, factor * last);
+  constexpr std::size_t most = 40;
+  const auto begin =
+      static_cast<std::size_t>(std::ranges::lower_bound(edges, first * (1 - 1e-9)) - edges.begin());
+  const std::size_t step = std::max<std::size_t>(1, (edges.size() - begin) / most);
+  for (std::size_t k = begin; k + 1 < edges.size(); k += step)
+    for (const double amplitude : {edges[k], (edges[k] + edges[k + 1]) / 2})
+      compare(amplitude_of(set.sliders, backbone.force(0, amplitude)), amplitude);
+  for (const double factor : {1., 2., 10.}) compare(factor * edges.back(), factor * edges.back());
   return worst;
 }
 
@@ -155,7 +159,7 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     set.sliders.push_back(slider);
   }
   set.sliders.push_back({rest_stiffness, rest_force});
-  set.loss_error = error_of_loss(set, backbone, smallest, last);
+  set.loss_error = error_of_loss(set, backbone, x, smallest);
   return set;
 }
 
