@@ -4,7 +4,6 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
-#include <tuple>
 
 #include "adhesion_reference.hpp"
 
@@ -134,25 +133,34 @@ void measure_pull_off(AdhesiveCycle& cycle, double pressure_of_residual) {
     return;
   }
   if (largest == branch.begin() || largest == branch.end() - 1) return;
-  const auto& [before, here, after] = std::tie(largest[-1], largest[0], largest[1]);
-  const double tension = -here.mean_pressure;
-  const double rise = tension + before.mean_pressure, fall = tension + after.mean_pressure;
-  const double inner = before.indentation - here.indentation,
-               outer = here.indentation - after.indentation;
-  // Newton's form of the parabola with the slope s at the middle position and the curvature −2c.
-  const double c = (rise / inner + fall / outer) / (inner + outer);
-  const double s = rise / inner - c * inner;
-  double error = (c > 0 ? s * s / (4 * c) : 0) + c * inner * outer / 4;
-  // A fall that is much steeper than its neighbours is a snap.
-  const double next = largest + 2 < branch.end()
-                          ? (largest[2].mean_pressure - after.mean_pressure) /
-                                (after.indentation - largest[2].indentation)
-                          : 0;
+  const std::ptrdiff_t at = largest - branch.begin(), last = std::ssize(branch) - 1;
+  const auto tension = [&](std::ptrdiff_t k) { return -branch[std::size_t(k)].mean_pressure; };
+  const auto distance = [&](std::ptrdiff_t k) {  // outward from the closest position
+    return branch.front().indentation - branch[std::size_t(k)].indentation;
+  };
+  const auto slope = [&](std::ptrdiff_t k) {  // from position k to the next
+    return k < 0 || k >= last ? 0 : (tension(k + 1) - tension(k)) / (distance(k + 1) - distance(k));
+  };
+  // A fall that is much steeper than the changes beside it is a snap.
   constexpr double steeper = 3;
-  if (fall / outer > steeper * std::max(rise / inner, std::abs(next)))
-    error = std::max(error, rise / inner * outer);
-  cycle.pull_off_pressure = tension;
-  cycle.pull_off_error = error + pressure_of_residual * here.adhesion_residual;
+  const bool snaps = -slope(at) > steeper * std::max(slope(at - 1), -slope(at + 1));
+  // Highest point of the lines from both sides into the step from k to k + 1.
+  const auto bound = [&](std::ptrdiff_t k, double rise, double fall) {
+    const double step = distance(k + 1) - distance(k);
+    const double meet = (tension(k + 1) - tension(k) - fall * step) / (rise - fall);
+    return tension(k) + rise * std::clamp(meet, 0.0, step);
+  };
+  double most = tension(at);
+  if (snaps) {
+    most += slope(at - 1) * (distance(at + 1) - distance(at));
+  } else {
+    most = std::max(most, bound(at, slope(at - 1), at + 2 <= last ? slope(at + 1) : slope(at)));
+    // Without a position before it, the step before has only the line from outside.
+    most = std::max(most, at >= 2 ? bound(at - 1, slope(at - 2), slope(at))
+                                  : tension(at) - slope(at) * (distance(at) - distance(at - 1)));
+  }
+  cycle.pull_off_pressure = tension(at);
+  cycle.pull_off_error = most - tension(at) + pressure_of_residual * largest->adhesion_residual;
 }
 
 /// Evaluates the closed cycle: its work, its reversible amplitude and their errors.

@@ -680,22 +680,24 @@ TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does no
 }
 
 TEST_CASE("The pull-off between the positions is within its error", "[adhesion]") {
-  // Sixteen times the steps find the pull-off to a part of the errors checked here. On the smooth
-  // side the tension has a maximum; sticky spots snap off.
-  for (const double range : {0.632, 2.0})
+  // A hundred and sixty steps find the pull-off to a part of the errors checked here. Two ranges of
+  // the forces: spots come off smoothly, or snap.
+  for (const double range : {1.2, 2.0})
     for (const int seed : {3, 4, 5}) {
       CAPTURE(range, seed);
       const Surface surface = rough_surface(
           cells(32, 32),
-          {.hurst = 0.8, .rolloff = 1, .cutoff = 8, .rms_slope = 0.1, .seed = std::uint64_t(seed)});
+          {.hurst = 0.8, .rolloff = 1, .cutoff = 8, .rms_slope = 0.2, .seed = std::uint64_t(seed)});
       const double touch = surface.heights.maxCoeff() - surface.heights.mean();
       const auto pull_off = [&](int steps) {
-        return adhesive_cycle(surface, 1, way_in(surface, touch + 8, steps, 0.05),
-                              {AdhesionPotential::exponential, 0.2, range}, {.unload = true});
+        return adhesive_cycle(surface, 1, way_in(surface, touch + 8, steps, -0.4),
+                              {AdhesionPotential::exponential, 0.1, range}, {.unload = true});
       };
       const AdhesiveCycle fine = pull_off(160);
-      for (const int steps : {10, 14, 20}) {
+      REQUIRE(fine.pull_off_pressure > 0);
+      for (const int steps : {12, 17, 24}) {
         const AdhesiveCycle coarse = pull_off(steps);
+        CAPTURE(steps);
         REQUIRE((fine.converged() && coarse.converged()));
         CHECK(coarse.pull_off_pressure <= fine.pull_off_pressure + fine.pull_off_error);
         CHECK(fine.pull_off_pressure <= coarse.pull_off_pressure + coarse.pull_off_error);

@@ -25,11 +25,11 @@ struct AdhesiveCycleNumbers {
   /// because then the surfaces have not come off.
   double pull_off_pressure = std::numeric_limits<double>::quiet_NaN();
   /// How much larger the tension may be between the positions, Pa. In load control the pull-off lies
-  /// between pull_off_pressure and pull_off_pressure + pull_off_error, by bisection. Otherwise, with
-  /// the tensions p at the position of the largest tension and beside it, the parabola through them
-  /// exceeds the largest by e, and the error is e + (2p₀ − p₋ − p₊)/8, the last term for the change
-  /// of the curvature; if the surfaces snap apart behind this position, the tension may rise until
-  /// the next position as it did before.
+  /// between pull_off_pressure and pull_off_pressure + pull_off_error, by bisection. Otherwise the
+  /// tension beside its maximum lies below the straight lines through two positions on either side,
+  /// as that of every concave curve, and the error is the height of the point where these lines meet;
+  /// if the surfaces snap apart behind the position of the largest tension, the tension may rise
+  /// until the next position as it did before.
   double pull_off_error = std::numeric_limits<double>::quiet_NaN();
   /// Energy lost in a cycle between the outermost and the closest position, ∮F dδ, J. NaN in load
   /// control, where separated surfaces move apart without limit, and if the branches do not meet at
