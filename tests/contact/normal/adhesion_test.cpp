@@ -690,7 +690,7 @@ TEST_CASE("The pull-off between the positions is within its error", "[adhesion]"
           {.hurst = 0.8, .rolloff = 1, .cutoff = 8, .rms_slope = 0.2, .seed = std::uint64_t(seed)});
       const double touch = surface.heights.maxCoeff() - surface.heights.mean();
       const auto pull_off = [&](int steps) {
-        return adhesive_cycle(surface, 1, way_in(surface, touch + 8, steps, -0.4),
+        return adhesive_cycle(surface, 1, way_in(surface, touch + 8, steps, 0.05),
                               {AdhesionPotential::exponential, 0.1, range}, {.unload = true});
       };
       const AdhesiveCycle fine = pull_off(160);
