@@ -29,7 +29,7 @@ struct ExportArguments {
   LawOptions law;
   MaterialOptions material;
   Conduction conduction;
-  std::optional<double> friction_coefficient, nominal_area, min_force;
+  std::optional<double> friction_coefficient, min_force;
   std::vector<double> window;
   int rows = 200, sliders = 200;
 };
@@ -92,11 +92,11 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
         fmt::format("given together with --{}; give one of them", option_word(at[0].control)));
   std::vector<DeckContact> contacts;
   for (ForceCurve& curve : read_force_curves(file)) {
-    require_that(curve.nominal_area > 0 || arguments.nominal_area || complete_forces(curve),
+    require_that(curve.nominal_area > 0 || arguments.law.nominal_area || complete_forces(curve),
                  "--nominal-area", "not given, but " + file + " has pressures without forces");
     const double sample_area = curve.nominal_area;
-    if (arguments.nominal_area)
-      curve = curve_of_part(std::move(curve), *arguments.nominal_area, file);
+    if (arguments.law.nominal_area)
+      curve = curve_of_part(std::move(curve), *arguments.law.nominal_area, file);
     contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
                                                  .modulus_ratio = parameters.modulus_ratio,
                                                  .at = at.empty() ? OperatingPoints{} : at.front(),
@@ -124,7 +124,7 @@ void run(const ExportArguments& arguments, Session& session) {
                       .provenance = session.provenance()};
   if (arguments.friction_coefficient)
     problem.friction_coefficient = *arguments.friction_coefficient;
-  if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
+  if (arguments.law.nominal_area) problem.nominal_area = *arguments.law.nominal_area;
   if (!arguments.conduction.conductivity.empty()) {
     require_options(arguments.material.missing(false), "--conductivity");
     problem.conductivity = arguments.conduction.conductivity;
@@ -139,17 +139,30 @@ void run(const ExportArguments& arguments, Session& session) {
     problem.pressure_window = {arguments.window[0], arguments.window[1]};
   }
   if (!file.empty()) {
-    require_that(law.indenter.law.empty() && !law.surface.given(), "--law",
-                 "or --surface given together with a file; give one of them");
+    require_that(law.indenter.law.empty() && !law.surface.given() && !law.of_roughness(), "--law",
+                 "or --surface or --rms-height given together with a file; give one of them");
     problem.contacts = contacts_of_file(arguments, file, problem, session);
     problem.source = file;
   } else {
-    require_that(!law.indenter.law.empty() || law.surface.given(), "RESULT",
-                 "not given; name a file of contact or study, or give --law or --surface");
+    require_that(!law.indenter.law.empty() || law.surface.given() || law.of_roughness(), "RESULT",
+                 "not given; name a file of contact or study, or give --law, --surface or "
+                 "--rms-height");
     problem.contacts = {
         deck_contact(law.problem(arguments.material, session, {}), session.context())};
-    problem.source =
-        law.surface.given() ? law.surface.file : fmt::format("law {}", law.indenter.law);
+    problem.source = law.surface.given()  ? law.surface.file
+                     : law.of_roughness() ? "roughness of the sides"
+                                          : fmt::format("law {}", law.indenter.law);
+    if (law.of_roughness()) {
+      const RoughnessLaw sides = law.law_of_sides(arguments.material);
+      problem.comment = fmt::format(
+          "The decay length follows from the roughness of the sides, {}: {}, and of 95 % of such "
+          "pairs from {} to {}.",
+          format_quantity(sides.rms_height, Dimension::length),
+          format_quantity(sides.decay_length, Dimension::length, 3),
+          format_quantity(sides.decay_length_low, Dimension::length, 3),
+          format_quantity(sides.decay_length_high, Dimension::length, 3));
+      session.warn(problem.comment);
+    }
   }
   const DeckSolution answer = solve(problem);
   constexpr double max_error = 0.01;
@@ -195,7 +208,7 @@ void add_export_command(Program& program) {
   add_quantity(command, "--friction-coefficient", arguments->friction_coefficient,
                Dimension::dimensionless,
                "coefficient of friction mu, for decks with friction and for sliders");
-  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+  add_quantity(command, "--nominal-area", arguments->law.nominal_area, Dimension::length_squared,
                "nominal area of the part: forces of a file or of --surface are scaled to it; the "
                "force of --law over it is the pressure");
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
@@ -219,6 +232,7 @@ void add_export_command(Program& program) {
       "which of several surfaces to take; default mean. Tables hold all three, except elmer");
   command.under(before);
   arguments->law.add_to(command);
+  arguments->law.add_roughness_to(command);
   arguments->material.add_to(command);
   const std::string last = command.under("Conductance");
   add_values(

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `salebra joint`: partial slip under a tangential oscillation.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
+#include <set>
 
 #include "assumption_options.hpp"
 #include "damping/joint_loop.hpp"
@@ -13,6 +18,7 @@
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "study/estimate.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -21,7 +27,7 @@ struct JointArguments {
   LawOptions law;
   MaterialOptions material;
   std::vector<double> tangential_forces, tangential_amplitudes;
-  std::optional<double> normal_amplitude, phase, nominal_area, frequency, angular_frequency;
+  std::optional<double> normal_amplitude, phase, frequency, angular_frequency;
   std::string hold;
   int steps = 2000;
   std::optional<int> direct_steps;
@@ -99,36 +105,174 @@ void check(const JointArguments& arguments) {
     require_positive(*arguments.angular_frequency, "--angular-frequency");
   require_that(!arguments.frequency || !arguments.angular_frequency, "--angular-frequency",
                "given together with --frequency; give one of them");
-  if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
+  if (arguments.law.nominal_area) require_positive(*arguments.law.nominal_area, "--nominal-area");
 }
+
+/// The contacts whose joints are solved: one, that of each surface of a study, or for a part of known
+/// roughness three: with the decay length, and with its limits. The softest has K_t/K of a lay along
+/// the motion, the stiffest that of a lay across it, each for an endless stretch: with ν from
+/// ρ = 2(1 − ν)/(2 − ν), K_t/K of strips is 1 − ν = ρ/(2 − ρ) along and 1 across.
+std::vector<ContactProblem> contacts_of(const JointArguments& arguments, Session& session) {
+  std::vector<ContactProblem> contacts =
+      arguments.law.problems(arguments.material, session, arguments.assumptions.hardness);
+  if (arguments.law.of_roughness()) {
+    const RoughnessLaw law = arguments.law.law_of_sides(arguments.material);
+    const auto middle = std::get<ExponentialContact>(contacts.front());
+    const double ratio = middle.modulus_ratio, along = ratio / (2 - ratio);
+    contacts.emplace_back(
+        ExponentialContact{law.decay_length_low, std::max(along, 1.0), middle.normal_force});
+    contacts.emplace_back(
+        ExponentialContact{law.decay_length_high, std::min(along, 1.0), middle.normal_force});
+  }
+  return contacts;
+}
+
+std::vector<JointSolution> solve_all(const JointArguments& arguments, Session& session) {
+  std::vector<JointSolution> solutions;
+  for (ContactProblem& contact : contacts_of(arguments, session)) {
+    JointProblem problem{
+        .contact = std::move(contact),
+        .normal_amplitude = arguments.normal_amplitude.value_or(0),
+        .phase = arguments.phase.value_or(0),
+        .hold = arguments.hold.empty() ? Hold::automatic : *parse_enum<Hold>(arguments.hold),
+        .angular_frequency = arguments.angular_frequency.value_or(2 * std::numbers::pi *
+                                                                  arguments.frequency.value_or(0)),
+        .parameters = arguments.assumptions.parameters(arguments.material),
+        .steps = arguments.steps,
+        .direct_steps = arguments.direct_steps};
+    if (arguments.law.nominal_area) problem.nominal_area = *arguments.law.nominal_area;
+    for (const double force : arguments.tangential_forces)
+      problem.motions.emplace_back(TangentialForce{force});
+    for (const double amplitude : arguments.tangential_amplitudes)
+      problem.motions.emplace_back(TangentialAmplitude{amplitude});
+    solutions.push_back(solve(std::move(problem), session.context()));
+  }
+  return solutions;
+}
+
+/// The numbers of several joints with their limits, NAME_low and NAME_high. The joints are either
+/// those of the surfaces of a study, with the mean and the 95 % prediction interval of one more
+/// surface, or that of a part of known roughness, followed by its extremes.
+class Limits {
+ public:
+  Limits(const std::vector<JointSolution>& solutions, bool extremes)
+      : solutions_(solutions), extremes_(extremes) {}
+
+  std::string meaning() const {
+    if (extremes_)
+      return "limits: 95 % of pairs of surfaces with this roughness, moved along or across a lay; "
+             "a map of the surfaces gives narrower ones";
+    return fmt::format(
+        "means over {} surfaces; limits: 95 % prediction interval of one more surface",
+        solutions_.size());
+  }
+
+  /// Adds the limits of the contact at rest.
+  Json state() const {
+    std::vector<Json> all;
+    for (const JointSolution& one : solutions_) all.push_back(json_of(one.state));
+    Json answer = Json::object();
+    for (const auto& [name, value] : all.front().items()) {
+      std::vector<double> values;
+      for (const Json& one : all) values.push_back(one[name].number());
+      add(name, {limits_of(values)}, values,
+          [&](const std::string& key, const auto& numbers) { answer[key] = numbers.front(); });
+    }
+    return answer;
+  }
+
+  ResultTable motions(double area) const {
+    std::vector<ResultTable> all;
+    for (const JointSolution& one : solutions_)
+      all.push_back(table_of("motions", one.losses, area));
+    ResultTable table{.name = "motions", .columns = {}};
+    for (const ResultColumn& column : all.front().columns) {
+      std::vector<EnsembleMean> limits;
+      std::vector<double> every;
+      for (std::size_t row = 0; row < column.values.size(); ++row) {
+        std::vector<double> values;
+        for (const ResultTable& one : all) {
+          const auto same = std::ranges::find(one.columns, column.name, &ResultColumn::name);
+          values.push_back(same == one.columns.end() ? JointLoss::unknown : same->values[row]);
+        }
+        limits.push_back(limits_of(values));
+        const double first = values.front();
+        for (const double value : values) every.push_back(value == first ? 0 : value - first);
+      }
+      add(column.name, limits, every, [&](const std::string& name, const auto& numbers) {
+        table.columns.push_back({name, numbers});
+      });
+    }
+    return table;
+  }
+
+  /// Says which regimes the joints have, if they differ in a motion; otherwise empty.
+  std::string regimes() const {
+    std::string text;
+    for (std::size_t k = 0; k < solutions_.front().losses.size(); ++k) {
+      std::vector<std::string_view> found;
+      for (const JointSolution& one : solutions_)
+        if (const auto name = name_of(one.losses[k].regime);
+            std::ranges::find(found, name) == found.end())
+          found.push_back(name);
+      if (found.size() > 1)
+        text += fmt::format("{}motion {}: {}", text.empty() ? "" : "; ", k + 1,
+                            fmt::join(found, " or "));
+    }
+    return text.empty() ? "" : "within the limits the regime differs: " + text;
+  }
+
+ private:
+  EnsembleMean limits_of(const std::vector<double>& values) const {
+    if (!extremes_) return prediction(values);
+    const auto [low, high] = std::ranges::minmax(values);
+    return {values.front(), low, high};
+  }
+  /// Passes the values to `put` and, unless all joints have the same, their limits.
+  template <class Put>
+  static void add(const std::string& name, const std::vector<EnsembleMean>& limits,
+                  const std::vector<double>& differences, const Put& put) {
+    const bool same = std::ranges::all_of(differences, [&](double value) {
+      return value == differences.front() || std::isnan(value);
+    });
+    for (const auto& [end, member] : {std::pair{"", &EnsembleMean::mean},
+                                      {"_low", &EnsembleMean::low},
+                                      {"_high", &EnsembleMean::high}}) {
+      std::vector<double> numbers;
+      for (const EnsembleMean& one : limits) numbers.push_back(one.*member);
+      put(name + end, numbers);
+      if (same) break;
+    }
+  }
+
+  const std::vector<JointSolution>& solutions_;
+  bool extremes_;
+};
 
 void run(const JointArguments& arguments, Session& session) {
   const bool direct = arguments.direct_steps.has_value();
   require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
                                  : std::vector<std::string>{"motions"});
   check(arguments);
-  JointProblem problem{
-      .contact = arguments.law.problem(arguments.material, session, arguments.assumptions.hardness),
-      .normal_amplitude = arguments.normal_amplitude.value_or(0),
-      .phase = arguments.phase.value_or(0),
-      .hold = arguments.hold.empty() ? Hold::automatic : *parse_enum<Hold>(arguments.hold),
-      .angular_frequency = arguments.angular_frequency.value_or(2 * std::numbers::pi *
-                                                                arguments.frequency.value_or(0)),
-      .parameters = arguments.assumptions.parameters(arguments.material),
-      .steps = arguments.steps,
-      .direct_steps = arguments.direct_steps};
-  if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
-  for (const double force : arguments.tangential_forces)
-    problem.motions.emplace_back(TangentialForce{force});
-  for (const double amplitude : arguments.tangential_amplitudes)
-    problem.motions.emplace_back(TangentialAmplitude{amplitude});
-  const JointSolution found = solve(std::move(problem), session.context());
-  session.warn(found.contact.warnings);
+  const std::vector<JointSolution> solutions = solve_all(arguments, session);
+  const JointSolution& found = solutions.front();
+  std::set<std::string> said;
+  for (const JointSolution& one : solutions)
+    for (const std::string& warning : one.contact.warnings)
+      if (said.insert(warning).second) session.warn(warning);
   for (const std::string& warning : found.warnings) session.inform(warning);
 
-  const double area = arguments.nominal_area.value_or(found.contact.nominal_area());
-  Json answer = json_of(found.state);
-  std::vector<ResultTable> tables{table_of("motions", found.losses, area)};
+  const double area = arguments.law.nominal_area.value_or(found.contact.nominal_area());
+  const Limits limits(solutions, arguments.law.of_roughness());
+  Json answer = Json::object();
+  if (arguments.law.of_roughness())
+    answer = json_of(arguments.law.law_of_sides(arguments.material));
+  answer.add(limits.state());
+  std::vector<ResultTable> tables{limits.motions(area)};
+  if (solutions.size() > 1) {
+    session.inform(limits.meaning());
+    if (const std::string differing = limits.regimes(); !differing.empty()) session.warn(differing);
+  }
   if (direct) tables.push_back(table_of("direct", found.simulated, area));
   write_tables(session, "joint", answer, tables);
   for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
@@ -153,12 +297,16 @@ void add_joint_command(Program& program) {
        "--poisson 0.3 --friction-coefficient 0.3 --tangential-forces 0.1:2.9N:12 --plot joint.png",
        "salebra joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o "
-       "joint.csv"},
+       "joint.csv",
+       "salebra joint --rms-height 0.8um,0.8um --pressure 30MPa --nominal-area 400mm2 --poisson "
+       "0.3 "
+       "--friction-coefficient 0.2 --tangential-amplitudes 0.1um,1um,5um --frequency 100Hz"},
       [arguments](Session& session) { run(*arguments, session); },
       "loss over force, loop and backbone", OutputCheck::any_name);
   arguments->law.add_to(command);
+  arguments->law.add_roughness_to(command);
   arguments->material.add_to(command);
-  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+  add_quantity(command, "--nominal-area", arguments->law.nominal_area, Dimension::length_squared,
                "nominal area of the part: forces of --curve or --surface are scaled to it; with "
                "--law, for results per area");
   command.under("Motion");

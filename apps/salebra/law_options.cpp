@@ -40,8 +40,11 @@ OperatingPoints operating_point_of(const LawOptions& arguments,
 void LawOptions::require_own_parameters() const {
   const std::string& law = indenter.law;
   const bool by_law = curve.empty() && !surface.given();
-  const std::string chosen = surface.given() ? "--surface" : by_law ? "--law " + law : "--curve";
-  if (!by_law || law == "exponential") indenter.require_only({}, chosen);
+  const std::string chosen = surface.given()  ? "--surface"
+                             : of_roughness() ? "--rms-height"
+                             : by_law         ? "--law " + law
+                                              : "--curve";
+  if (!by_law || law == "exponential" || of_roughness()) indenter.require_only({}, chosen);
   require_that(!decay_length || (by_law && law == "exponential"), "--decay-length",
                fmt::format("given, but {} has none; leave it out", chosen));
 }
@@ -62,8 +65,73 @@ void LawOptions::add_to(Command& command) {
   at.add_to(command, "Operating point (may be a range)");
 }
 
+void LawOptions::add_roughness_to(Command& command) {
+  const std::string before = command.under("Roughness of the sides, if there is no map");
+  add_values(command, "--rms-height", rms_height, Dimension::length,
+             "RQ1[,RQ2], rms height of each side; gives the decay length with its limits, from an "
+             "ensemble of pairs of ground, honed and isotropic surfaces");
+  add_values(command, "--rms-slope", rms_slope, Dimension::dimensionless,
+             "rms slope of each side (Sdq, or sqrt(2) times Rdq), for narrower limits");
+  add_values(command, "--skewness", skewness, Dimension::dimensionless,
+             "skewness of each side (Rsk or Ssk), for narrower limits");
+  command.under(before);
+}
+
+double LawOptions::force_of_part() const {
+  const OperatingPoints point =
+      operating_point_of(*this, {ControlQuantity::pressure, ControlQuantity::normal_force});
+  at.require_one("a part of known roughness takes one");
+  if (point.control == ControlQuantity::normal_force) return point.values.front();
+  return point.values.front() *
+         required(nominal_area, "--nominal-area", "--pressure with --rms-height needs it");
+}
+
+RoughnessLaw LawOptions::law_of_sides(const MaterialOptions& material) const {
+  std::vector<SideRoughness> sides;
+  for (const auto& [option, values] :
+       {std::pair{"--rms-slope", &rms_slope}, {"--skewness", &skewness}})
+    require(values->empty() || values->size() == rms_height.size(), option, values->size(),
+            fmt::format("values are given for {} sides; give one for each", rms_height.size()));
+  for (std::size_t k = 0; k < rms_height.size(); ++k) {
+    sides.push_back({.rms_height = rms_height[k]});
+    if (!rms_slope.empty()) sides.back().rms_slope = rms_slope[k];
+    if (!skewness.empty()) sides.back().skewness = skewness[k];
+  }
+  if (rms_slope.empty()) return law_of_roughness(sides);
+  const double area = required(nominal_area, "--nominal-area", "--rms-slope needs it");
+  require_options(material.missing(false), "--rms-slope");
+  return law_of_roughness(sides, force_of_part() / area / material.material().contact_modulus);
+}
+
+std::vector<ContactProblem> LawOptions::problems(const MaterialOptions& material, Session& session,
+                                                 const std::optional<double>& hardness) const {
+  std::vector<ContactProblem> all;
+  if (!curve.empty() && indenter.law.empty() && !surface.given() && !of_roughness()) {
+    require_own_parameters();
+    const OperatingPoints points =
+        operating_point_of(*this, {ControlQuantity::normal_force, ControlQuantity::indentation,
+                                   ControlQuantity::pressure, ControlQuantity::mean_gap});
+    for (ForceCurve& one : read_force_curves(curve))
+      all.emplace_back(CurveContact{.curve = std::move(one),
+                                    .modulus_ratio = material.modulus_ratio(),
+                                    .at = points,
+                                    .source = curve});
+    return all;
+  }
+  all.push_back(problem(material, session, hardness));
+  return all;
+}
+
 ContactProblem LawOptions::read(const MaterialOptions& material, bool with_points) const {
   using enum ControlQuantity;
+  if (of_roughness()) {
+    require(indenter.law.empty() && curve.empty() && !surface.given(), "--rms-height",
+            rms_height.size(),
+            "values are given together with --law, --curve or --surface; give one of them");
+    require_own_parameters();
+    return ExponentialContact{
+        law_of_sides(material).decay_length, material.modulus_ratio(), {force_of_part()}};
+  }
   const auto control = [&](const std::vector<ControlQuantity>& allowed) {
     return with_points ? operating_point_of(*this, allowed) : OperatingPoints{};
   };
@@ -89,8 +157,8 @@ ContactProblem LawOptions::read(const MaterialOptions& material, bool with_point
 ContactProblem LawOptions::problem(const MaterialOptions& material, Session& session,
                                    const std::optional<double>& hardness) const {
   if (!surface.given()) return read(material, true);
-  require(indenter.law.empty() && curve.empty(), "--surface", surface.file,
-          "is given together with --law or --curve; give one of them");
+  require(indenter.law.empty() && curve.empty() && !of_roughness(), "--surface", surface.file,
+          "is given together with --law, --curve or --rms-height; give one of them");
   require_own_parameters();
   std::vector<double> values = operating_point_of(*this, {ControlQuantity::pressure}).values;
   return SurfaceContact{.surface = surface.read(session),

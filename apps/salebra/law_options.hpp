@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <salebra/analysis/contact.hpp>
+#include <salebra/contact/law/roughness_law.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,18 @@ struct LawOptions {
   SurfaceOptions surface;
   OperatingPointsOptions at;
   std::optional<double> decay_length;
+  std::vector<double> rms_height, rms_slope, skewness;  ///< of the two sides, if there is no map
+  std::optional<double> nominal_area;                   ///< of the part, m²; with rms_height
 
   void add_to(Command& command);
+  /// Adds the options for a contact of which only the roughness of the sides is known.
+  void add_roughness_to(Command& command);
+  bool of_roughness() const { return !rms_height.empty(); }
+  /// The law of the sides' roughness. Throws InvalidInput if an option is missing.
+  RoughnessLaw law_of_sides(const MaterialOptions& material) const;
+  /// The contact for each surface of the study in --curve, or the one contact of problem().
+  std::vector<ContactProblem> problems(const MaterialOptions& material, Session& session,
+                                       const std::optional<double>& hardness) const;
   /// The contact that the options describe, with its operating points. Throws InvalidInput if an
   /// option is missing or does not fit the others. Reads the file of a surface.
   ContactProblem problem(const MaterialOptions& material, Session& session,
@@ -43,6 +54,8 @@ struct LawOptions {
   /// The contact that the options describe, with its operating points or (points false) without
   /// them.
   ContactProblem read(const MaterialOptions& material, bool points) const;
+  /// The normal force of a part whose roughness is given, N.
+  double force_of_part() const;
 };
 
 }  // namespace salebra::cli

@@ -30,6 +30,14 @@ Quantity quantity_of(const std::string& name, const std::string& object) {
                                         DampingSolution, DamperSolution, Cost>(one))
       return {own->name, own->dimension, own->long_name};
   }
+  // The limits of a number have its unit.
+  for (const auto& [end, meaning] :
+       {std::pair<std::string_view, const char*>{"_low", "lower 95 % limit"},
+        {"_high", "upper 95 % limit"}})
+    if (name.ends_with(end) && is_quantity(name.substr(0, name.size() - end.size()))) {
+      const Quantity of = find_quantity(name.substr(0, name.size() - end.size()));
+      return {of.name, of.dimension, meaning};
+    }
   return find_quantity(name);
 }
 
