@@ -295,9 +295,6 @@ void add_joint_command(Program& program) {
       "joint", "partial slip under a tangential oscillation",
       {"salebra joint --law paraboloid --radius 10mm --normal-force 10 --contact-modulus 115GPa "
        "--poisson 0.3 --friction-coefficient 0.3 --tangential-forces 0.1:2.9N:12 --plot joint.png",
-       "salebra joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-       "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o "
-       "joint.csv",
        "salebra joint --rms-height 0.8um,0.8um --pressure 30MPa --nominal-area 400mm2 --poisson "
        "0.3 "
        "--friction-coefficient 0.2 --tangential-amplitudes 0.1um,1um,5um --frequency 100Hz"},
