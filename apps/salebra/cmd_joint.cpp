@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -109,9 +110,9 @@ void check(const JointArguments& arguments) {
 }
 
 /// The contacts whose joints are solved: one, that of each surface of a study, or for a part of known
-/// roughness three: with the decay length, and with its limits. The softest has K_t/K of a lay along
-/// the motion, the stiffest that of a lay across it, each for an endless stretch: with ν from
-/// ρ = 2(1 − ν)/(2 − ν), K_t/K of strips is 1 − ν = ρ/(2 − ρ) along and 1 across.
+/// roughness five: with the decay length, with its limits, and between them. The softest has K_t/K
+/// of a lay along the motion, the stiffest that of a lay across it, each for an endless stretch: with
+/// ν from ρ = 2(1 − ν)/(2 − ν), K_t/K of strips is 1 − ν = ρ/(2 − ρ) along and 1 across.
 std::vector<ContactProblem> contacts_of(const JointArguments& arguments, Session& session) {
   std::vector<ContactProblem> contacts =
       arguments.law.problems(arguments.material, session, arguments.assumptions.hardness);
@@ -119,10 +120,12 @@ std::vector<ContactProblem> contacts_of(const JointArguments& arguments, Session
     const RoughnessLaw law = arguments.law.law_of_sides(arguments.material);
     const auto middle = std::get<ExponentialContact>(contacts.front());
     const double ratio = middle.modulus_ratio, along = ratio / (2 - ratio);
-    contacts.emplace_back(
-        ExponentialContact{law.decay_length_low, std::max(along, 1.0), middle.normal_force});
-    contacts.emplace_back(
-        ExponentialContact{law.decay_length_high, std::min(along, 1.0), middle.normal_force});
+    for (const auto& [length, lay] : {std::pair{law.decay_length_low, std::max(along, 1.0)},
+                                      {law.decay_length_high, std::min(along, 1.0)}}) {
+      contacts.emplace_back(ExponentialContact{length, lay, middle.normal_force});
+      contacts.emplace_back(ExponentialContact{std::sqrt(length * middle.decay_length),
+                                               std::sqrt(lay * ratio), middle.normal_force});
+    }
   }
   return contacts;
 }
@@ -182,11 +185,17 @@ class Limits {
   }
 
   ResultTable motions(double area) const {
+    const bool several = solutions_.size() > 1;
     std::vector<ResultTable> all;
     for (const JointSolution& one : solutions_)
-      all.push_back(table_of("motions", one.losses, area));
+      all.push_back(table_of("motions", one.losses, several ? 0 : area));
     ResultTable table{.name = "motions", .columns = {}};
     for (const ResultColumn& column : all.front().columns) {
+      // With its limits a number takes three columns: those that follow from the others are left out.
+      constexpr std::array derived{"relaxation_work", "slip_work", "secant_stiffness", "exponent",
+                                   "loss_stiffness",  "knee",      "mean_force",       "max_force",
+                                   "contact_time",    "work_error"};
+      if (several && std::ranges::find(derived, column.name) != derived.end()) continue;
       std::vector<EnsembleMean> limits;
       std::vector<double> every;
       for (std::size_t row = 0; row < column.values.size(); ++row) {
@@ -196,8 +205,7 @@ class Limits {
           values.push_back(same == one.columns.end() ? JointLoss::unknown : same->values[row]);
         }
         limits.push_back(limits_of(values));
-        const double first = values.front();
-        for (const double value : values) every.push_back(value == first ? 0 : value - first);
+        for (const double value : values) every.push_back(value / values.front());
       }
       add(column.name, limits, every, [&](const std::string& name, const auto& numbers) {
         table.columns.push_back({name, numbers});
@@ -228,13 +236,13 @@ class Limits {
     const auto [low, high] = std::ranges::minmax(values);
     return {values.front(), low, high};
   }
-  /// Passes the values to `put` and, unless all joints have the same, their limits.
+  /// Passes the values to `put` and, unless all joints have the same, their limits. ratios: values of
+  /// the joints over that of the first.
   template <class Put>
   static void add(const std::string& name, const std::vector<EnsembleMean>& limits,
-                  const std::vector<double>& differences, const Put& put) {
-    const bool same = std::ranges::all_of(differences, [&](double value) {
-      return value == differences.front() || std::isnan(value);
-    });
+                  const std::vector<double>& ratios, const Put& put) {
+    const bool same =
+        std::ranges::none_of(ratios, [](double ratio) { return std::abs(ratio - 1) > 1e-9; });
     for (const auto& [end, member] : {std::pair{"", &EnsembleMean::mean},
                                       {"_low", &EnsembleMean::low},
                                       {"_high", &EnsembleMean::high}}) {
