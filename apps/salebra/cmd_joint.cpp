@@ -178,7 +178,9 @@ class Limits {
     for (const auto& [name, value] : all.front().items()) {
       std::vector<double> values;
       for (const Json& one : all) values.push_back(one[name].number());
-      add(name, {limits_of(values)}, values,
+      std::vector<double> ratios;
+      for (const double one : values) ratios.push_back(one / values.front());
+      add(name, {limits_of(values)}, ratios,
           [&](const std::string& key, const auto& numbers) { answer[key] = numbers.front(); });
     }
     return answer;
