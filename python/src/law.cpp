@@ -9,6 +9,7 @@
 #include <memory>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/contact/law/roughness_law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/export/deck.hpp>
 
@@ -151,6 +152,56 @@ InvalidInput
       .def(nb::init<double, double, double>(), nb::arg("reference_force"), nb::arg("decay_length"),
            nb::arg("modulus_ratio"))
       .def_prop_ro("decay_length", &ExponentialLaw::decay_length, "l, m.");
+  described_class<RoughnessLaw>(m, "RoughnessLaw",
+                                "What the roughness of two sides says of their exponential force "
+                                "law, with 95 % limits of the "
+                                "decay length.");
+  m.def(
+      "law_of_roughness",
+      [](const std::vector<double>& rms_heights, const std::vector<double>& rms_slopes,
+         const std::vector<double>& skewnesses, double pressure_over_modulus) {
+        std::vector<SideRoughness> sides;
+        for (const auto& [name, values] :
+             {std::pair{"rms_slopes", &rms_slopes}, {"skewnesses", &skewnesses}})
+          require(values->empty() || values->size() == rms_heights.size(), name, values->size(),
+                  "values are given; give one for each side");
+        for (std::size_t k = 0; k < rms_heights.size(); ++k) {
+          sides.push_back({.rms_height = rms_heights[k]});
+          if (!rms_slopes.empty()) sides.back().rms_slope = rms_slopes[k];
+          if (!skewnesses.empty()) sides.back().skewness = skewnesses[k];
+        }
+        return law_of_roughness(sides, pressure_over_modulus);
+      },
+      nb::arg("rms_heights"), nb::kw_only(), nb::arg("rms_slopes") = std::vector<double>(),
+      nb::arg("skewnesses") = std::vector<double>(),
+      nb::arg("pressure_over_modulus") = SideRoughness::unknown,
+      R"(Estimates the decay length of the force law of a joint from the roughness of its sides.
+
+The ratio of decay length and rms height is that of an ensemble of 900 pairs of ground, honed and isotropic surfaces, by the skewness of the
+sum and the load p/(E*h'). What is not given widens the limits.
+
+Parameters
+----------
+rms_heights : sequence of float
+    Rq or Sq of one or two sides, m.
+rms_slopes : sequence of float, optional
+    Sdq of each side, or √2 times Rdq.
+skewnesses : sequence of float, optional
+    Rsk or Ssk of each side, -2 … 0.3.
+pressure_over_modulus : float, optional
+    p/E*, with which the load is known if the slopes are.
+
+Raises
+------
+InvalidInput
+    Loads outside p/(E*h') = 0.0005 … 0.1.
+
+Examples
+--------
+>>> law = salebra.models.law_of_roughness([0.8e-6, 0.4e-6])
+>>> law.decay_length_low < law.decay_length < law.decay_length_high
+True
+)");
   nb::class_<TabulatedLaw, ContactLaw>(
       m, "TabulatedLaw",
       R"(A law by shape-preserving interpolation of a curve, computed or read from a file.
