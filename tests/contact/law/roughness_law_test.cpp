@@ -5,7 +5,8 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/law/roughness_law.hpp>
-#include <salebra/contact/normal/normal_contact.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/normal/punch.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/surface/moments.hpp>
