@@ -82,7 +82,7 @@ TEST_CASE("The limits of the decay length hold for pressed pairs of ground surfa
         }
         const double pressure = load * surface_moments(sum).rms_slope();
         const NormalContactState state = press(sum, 1, at_pressure(pressure));
-        const double length = pressure * grid.area() / normal_stiffness(state);
+        const double length = pressure * grid.area() / normal_stiffness(state, grid, 1);
         const RoughnessLaw law = law_of_roughness(sides, pressure),
                            of_height = law_of_roughness(heights);
         held += law.decay_length_low <= length && length <= law.decay_length_high;
