@@ -29,6 +29,7 @@
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <salebra/surface/twin.hpp>
 #include <vector>
 
 #include "columns.hpp"
@@ -51,7 +52,7 @@ const Column* entry_of(std::string_view name) {
       RegimePoint, Slider, SliderMotion, SliderStability, SliderThresholds, OscillatorDecay,
       FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping,
       Anisotropy, NonGaussianSurface, Conductances, ContactDistributions, FlowFactors,
-      AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay>(name);
+      AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay, TwinDraw>(name);
 }
 
 }  // namespace

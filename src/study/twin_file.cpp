@@ -79,6 +79,18 @@ constexpr std::pair<const char*, double TwinDraw::*> numbers_of_draw[] = {
     {"rms_height", &TwinDraw::rms_height},
     {"rms_slope", &TwinDraw::rms_slope}};
 
+/// Numbers of a draw that files of version 2.0 lack, whose surfaces are isotropic and Gaussian, and
+/// their bounds.
+struct AddedNumber {
+  const char* name;
+  double TwinDraw::*member;
+  double low, high;
+};
+constexpr AddedNumber added_numbers[] = {{"stretch", &TwinDraw::stretch, 1, 1e3},
+                                         {"lay_angle", &TwinDraw::lay_angle, 0, std::numbers::pi},
+                                         {"skewness", &TwinDraw::skewness, -10, 10},
+                                         {"kurtosis", &TwinDraw::kurtosis, 1, 1000}};
+
 /// The wavenumbers of a draw. A draw that is a power law has only one, the reference wavenumber of
 /// its amplitude. log_psd_of() gives ln C at these wavenumbers.
 std::vector<double> knots_of(const TwinDraw& draw) {
@@ -98,11 +110,13 @@ void write_draws(ResultGroup plain, const std::vector<TwinDraw>& draws) {
   plain.dataset("log_psd", log_psd, {"draw", "knot"}, "1",
                 "natural logarithm of the spectral density in m^4, or of its power law");
   QuantityGroup group(std::move(plain));
-  for (const auto& [name, member] : numbers_of_draw) {
+  const auto write = [&](const char* name, double TwinDraw::*member) {
     std::vector<double> values;
     for (const TwinDraw& draw : draws) values.push_back(draw.*member);
     group.dataset(name, values, {"draw"});
-  }
+  };
+  for (const auto& [name, member] : numbers_of_draw) write(name, member);
+  for (const AddedNumber& number : added_numbers) write(number.name, number.member);
 }
 
 }  // namespace
@@ -204,9 +218,11 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const std::size_t count = values_of_draws / knots_of_draw;
   require(count > 0 && count * knots_of_draw == values_of_draws, path.string(), values_of_draws,
           fmt::format("values of {}log_psd make no draws of {} knots", draws_group, knots_of_draw));
-  for (const auto& [name, member] : numbers_of_draw)
+  const auto require_one_a_draw = [&](const char* name) {
     require(count_of(name) == count, path.string(), count_of(name),
             fmt::format("values of {} belong to {} draws", name, count));
+  };
+  for (const auto& [name, member] : numbers_of_draw) require_one_a_draw(name);
   // Reads numbers and checks that they lie between `low` and `high`. The limits used below include
   // all real surfaces and exclude overflow.
   const auto within = [&](const std::string& name, double low, double high) {
@@ -230,8 +246,16 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
                                                                         : within(name, 1e-15, 1e6);
     for (std::size_t i = 0; i < count; ++i) draws[i].*member = values[i];
   }
+  for (const AddedNumber& number : added_numbers) {
+    if (!file.has(draws_group + number.name)) continue;
+    require_one_a_draw(number.name);
+    const std::vector<double> values = within(number.name, number.low, number.high);
+    for (std::size_t i = 0; i < count; ++i) draws[i].*number.member = values[i];
+  }
   for (std::size_t i = 0; i < count; ++i) {
     TwinDraw& draw = draws[i];
+    require(draw.kurtosis > draw.skewness * draw.skewness + 1, path.string(), draw.kurtosis,
+            fmt::format("in {}kurtosis must exceed skewness^2 + 1", draws_group));
     draw.form = *form;
     const auto first = log_psd.begin() + static_cast<std::ptrdiff_t>(i * knots.size());
     if (table) {

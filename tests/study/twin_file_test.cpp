@@ -105,7 +105,7 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
   // For periodic surfaces, which have no longer waves, the automatic choice would be a table.
   const TwinOptions options{.form = SpectrumForm::corner};
   const SurfaceTwin twin = twin_of(read_twin_measurements(folder.with("t.toml", list)), options);
-  const SurfaceTwin direct = fit_twin(scans, options);
+  SurfaceTwin direct = fit_twin(scans, options);
   CHECK(twin.hurst.value == direct.hurst.value);
   CHECK(twin.rms_slope.low == direct.rms_slope.low);
   write_twin(folder.path / "twin.h5", twin, {});
@@ -114,6 +114,8 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
   for (std::size_t i = 0; i < draws.size(); i += 97)
     for (const double q : {2e5, 1e6, 5e6, 2e7})
       CHECK(draws[i].density(q) == Approx(twin.draws[i].density(q)).epsilon(1e-14));
+  CHECK(draws.front().stretch == 1);
+  CHECK(draws.front().kurtosis == 3);
   CHECK_THROWS_WITH(read_twin_draws(folder.path / "scan1.h5"),
                     Catch::Contains("scan1.h5: is not a surface twin"));
 }

@@ -28,22 +28,32 @@ struct EnumNames<SpectrumForm> {
                                                                 {SpectrumForm::table, "table"}});
 };
 
-/// One spectrum drawn from the posterior distribution of spectra that the scans allow. Wavelengths
-/// are λ = 2π/q.
+/// One surface drawn from the posterior distribution of surfaces that the scans allow. Wavelengths
+/// are λ = 2π/q. The spectrum at the wave vector with the components q_across and q_along, at right
+/// angles to the lay and along it, is density(q_e) with the elliptic wave number
+///     q_e² = q_across² + (stretch·q_along)²,
+/// so that density(q) is the spectrum across the lay. An AnisotropicSpectrum with along = stretch
+/// and across = 1 is the same surface if its isotropic spectrum is density(q)/stretch.
 struct TwinDraw {
   SpectrumForm form = SpectrumForm::corner;
-  double hurst = 0;         ///< H; NaN for a table
-  double rolloff = 0;       ///< roll-off wavelength λ_r, m; NaN for a table
-  double short_cutoff = 0;  ///< cut-off wavelength λ_s, m
-  double rms_height = 0;    ///< of all waves, m; for a table, of waves in the scans
-  double rms_slope = 0;
-  double amplitude = 0;         ///< ln C of the pure power law at q = `reference`; 0 for a table
-  double reference = 0;         ///< wave number that `amplitude` belongs to, rad/m
-  std::vector<double> knots;    ///< knots of a table, rad/m
+  double hurst = 0;           ///< H; NaN for a table
+  double rolloff = 0;         ///< roll-off wavelength λ_r across the lay, m; NaN for a table
+  double short_cutoff = 0;    ///< cut-off wavelength λ_s across the lay, m
+  double rms_height = 0;      ///< of all waves, m; for a table, of waves in the scans
+  double rms_slope = 0;       ///< of the full gradient
+  double stretch = 1;         ///< ratio of wavelengths along the lay to those across it; 1: no lay
+  double lay_angle = 0;       ///< from the x axis to the lay, rad, in [0, π); 0 without a lay
+  double skewness = 0;        ///< of the heights; 0: Gaussian
+  double kurtosis = 3;        ///< of the heights; 3: Gaussian
+  double amplitude = 0;       ///< ln C of the pure power law at q = `reference`; 0 for a table
+  double reference = 0;       ///< wave number that `amplitude` belongs to, rad/m
+  std::vector<double> knots;  ///< knots of a table, rad/m
   std::vector<double> log_psd;  ///< ln C at the knots
 
-  /// Returns C in m⁴ at q > 0 in rad/m.
+  /// Returns C in m⁴ at q > 0 in rad/m, across the lay.
   double density(double q) const;
+  /// Roll-off wavelength along the lay, m.
+  double rolloff_along() const { return stretch * rolloff; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinDraw>) {
@@ -55,6 +65,11 @@ constexpr void describe(auto&& visit, std::type_identity<TwinDraw>) {
   visit(&S::short_cutoff, Quantity{"short_cutoff", length, "shortest wavelength"});
   visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+  visit(&S::stretch, Quantity{"stretch", dimensionless, "wavelengths along the lay over across"});
+  visit(&S::lay_angle, Quantity{"lay_angle", angle, "direction of the lay against x"});
+  visit(&S::skewness, Quantity{"skewness", dimensionless, "skewness of heights"});
+  visit(&S::kurtosis, Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"});
+  visit(&S::rolloff_along, Quantity{"rolloff_along", length, "roll-off wavelength along the lay"});
   visit(&S::amplitude, Kept{"amplitude", "logarithm of the power law at the reference"});
   visit(&S::reference, Kept{"reference", "wave number of the amplitude", wavenumber});
   visit(&S::knots, Kept{"knots", "wave numbers of a table", wavenumber});
@@ -186,13 +201,22 @@ constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
   visit(&S::leave_one_out, Kept{"leave_one_out", "whether it is fitted without each instrument"});
 }
 
-/// Surface twin: the isotropic surface from which several scans by several instruments are samples.
+/// Surface twin: the surface from which several scans by several instruments are samples. It may have
+/// a lay and heights that are not Gaussian.
 struct SurfaceTwin {
   static constexpr double refused_above = 2.2;  ///< misfit above which a form is rejected
 
   SpectrumForm form = SpectrumForm::corner;
   TwinParameter hurst, rolloff, short_cutoff;  ///< NaN for SpectrumForm::table
   TwinParameter rms_height, rms_slope;
+  /// Ratio of wavelengths along the lay to those across it, to which the roll-off and the cut-off
+  /// above belong; without a lay 1, with the upper limit of a lay that would be seen.
+  TwinParameter stretch;
+  TwinParameter lay_angle;      ///< from the x axis to the lay, rad; NaN without a lay
+  TwinParameter rolloff_along;  ///< roll-off wavelength along the lay, m
+  /// Of the heights of all waves, 0 and 3 with their limits if Gaussian heights explain the scans;
+  /// NaN if the roll-off is not seen.
+  TwinParameter skewness, kurtosis;
   Index bins = 0;
   double chi_square = 0;  ///< χ² of the fit: its deviance, summed over all bins
   /// χ² of the fit over its expectation: 1 for the right form of the spectrum. A form is rejected
@@ -222,6 +246,11 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
   visit(&S::short_cutoff, Quantity{"short_cutoff", length, "shortest wavelength"});
   visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+  visit(&S::stretch, Quantity{"stretch", dimensionless, "wavelengths along the lay over across"});
+  visit(&S::lay_angle, Quantity{"lay_angle", angle, "direction of the lay against x"});
+  visit(&S::rolloff_along, Quantity{"rolloff_along", length, "roll-off wavelength along the lay"});
+  visit(&S::skewness, Quantity{"skewness", dimensionless, "skewness of heights"});
+  visit(&S::kurtosis, Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"});
   visit(&S::bins, Kept{"bins", "bins that were used"});
   visit(&S::chi_square, Kept{"chi_square", "deviance of the fit"});
   visit(&S::misfit,
