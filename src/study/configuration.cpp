@@ -187,6 +187,13 @@ SurfaceTexture read_texture(TomlTable& table) {
   return texture;
 }
 
+/// Takes the spectra and textures of a surface twin.
+void read_twin(GeneratedSurfaces& surfaces, const std::filesystem::path& file) {
+  const std::vector<TwinDraw> draws = read_twin_draws(file);
+  surfaces.tables = tables_of(draws, surfaces.grid);
+  surfaces.textures = textures_of(draws);
+}
+
 /// twin: file with the spectra of a surface twin, which replace the spectrum in the table; empty:
 /// none.
 GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
@@ -199,14 +206,14 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
       read_self_affine(table, lists);
       read_texture(table);
     }
-    surfaces.tables = tables_of(read_twin_draws(twin), surfaces.grid);
+    read_twin(surfaces, twin);
   } else if (table.has("psd_table")) {
     table.check(lists.hurst.empty() && lists.rolloff.empty() && lists.short_cutoff.empty(),
                 "psd_table", "has no hurst, rolloff or short_cutoff that [ensemble] could vary");
     surfaces.tables.push_back(read_psd_table(table, folder));
   } else if (table.has("twin")) {
     table.check(lists.empty(), "twin", "fixes the spectrum, so [ensemble] has nothing to vary");
-    surfaces.tables = tables_of(read_twin_draws(folder / *table.text("twin")), surfaces.grid);
+    read_twin(surfaces, folder / *table.text("twin"));
   } else {
     surfaces.spectrum = read_self_affine(table, lists);
   }

@@ -269,20 +269,41 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   return draws;
 }
 
-std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const Grid2D& grid) {
-  const double lowest = std::numbers::pi / std::max(grid.lx, grid.ly);
-  const double nyquist = std::numbers::pi / std::max(grid.dx(), grid.dy());
-  const auto carried = [&](TwinDraw draw) {
-    // Cuts the spectrum at waves of two cells, the shortest ones on this grid.
-    draw.short_cutoff = std::max(draw.short_cutoff, 2 * std::numbers::pi / nyquist);
-    return tabulated(draw, lowest);
-  };
+namespace {
+
+/// The draw with the median slope, which stands for all, followed by all draws.
+std::vector<TwinDraw> with_median(const std::vector<TwinDraw>& draws) {
   std::vector<TwinDraw> by_slope = draws;
   const auto middle = by_slope.begin() + static_cast<std::ptrdiff_t>(by_slope.size() / 2);
   std::ranges::nth_element(by_slope, middle, {}, &TwinDraw::rms_slope);
-  std::vector<SpectrumTable> tables{carried(*middle)};
-  for (const TwinDraw& draw : draws) tables.push_back(carried(draw));
+  std::vector<TwinDraw> all{*middle};
+  all.insert(all.end(), draws.begin(), draws.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const Grid2D& grid) {
+  const double lowest = std::numbers::pi / std::max(grid.lx, grid.ly);
+  const double nyquist = std::numbers::pi / std::max(grid.dx(), grid.dy());
+  std::vector<SpectrumTable> tables;
+  for (TwinDraw& draw : with_median(draws)) {
+    // Cuts the spectrum at waves of two cells, the shortest ones on this grid.
+    draw.short_cutoff = std::max(draw.short_cutoff, 2 * std::numbers::pi / nyquist);
+    tables.push_back(tabulated(draw, lowest));
+    // An AnisotropicSpectrum multiplies by the stretch, so that it keeps the rms height.
+    for (double& psd : tables.back().psd) psd /= draw.stretch;
+  }
   return tables;
+}
+
+std::vector<SurfaceTexture> textures_of(const std::vector<TwinDraw>& draws) {
+  std::vector<SurfaceTexture> textures;
+  for (const TwinDraw& draw : with_median(draws))
+    textures.push_back({.lay = {.along = draw.stretch, .across = 1, .angle = draw.lay_angle},
+                        .skewness = draw.skewness,
+                        .kurtosis = draw.kurtosis});
+  return textures;
 }
 
 }  // namespace salebra

@@ -191,3 +191,35 @@ TEST_CASE("A study tells what the scans leave open from what differs from place 
   CHECK(length.low < length.mean / 1.5);
   CHECK(length.high > 1.5 * length.mean);
 }
+
+TEST_CASE("The surfaces of a draw with a lay have its rms height, slope and texture", "[twin]") {
+  TwinDraw draw;
+  draw.hurst = 0.7;
+  draw.rolloff = 20e-6;
+  draw.short_cutoff = 4e-6;
+  draw.reference = 1e6;
+  draw.amplitude = std::log(1e-26);
+  draw.stretch = 5;
+  draw.lay_angle = 0.6;
+  draw.skewness = -0.8;
+  draw.kurtosis = 4;
+  GeneratedSurfaces surfaces{.grid = {512, 512, 1e-3, 1e-3}, .spectrum = {}, .seeds = {1}};
+  surfaces.tables = tables_of({draw, draw}, surfaces.grid);
+  surfaces.textures = textures_of({draw, draw});
+  CHECK(surfaces.texture_of(4).skewness == -0.8);
+  CHECK(surfaces.texture_of(4).lay.angle == 0.6);
+  // ∫C d²q over the plane with C = density(q_e), by polar coordinates of the elliptic wave vector:
+  // an area d²q is d²q_e over the stretch.
+  double height = 0, slope = 0;
+  const double end = 2 * std::numbers::pi / draw.short_cutoff, step = end / 20000;
+  for (double q = step / 2; q < end; q += step) {
+    const double power = 2 * std::numbers::pi * q * draw.density(q) * step / draw.stretch;
+    height += power;
+    slope += power * q * q * (1 + 1 / (draw.stretch * draw.stretch)) / 2;
+  }
+  // The grid has 50 roll-offs across the lay and 10 along it, so that sums over its modes are
+  // close to the integrals.
+  const SpectralMoments moments = surfaces.spectrum_of(4)->lattice_moments(surfaces.grid);
+  CHECK(moments.rms_height() == Approx(std::sqrt(height)).epsilon(0.01));
+  CHECK(moments.rms_slope() == Approx(std::sqrt(slope)).epsilon(0.01));
+}

@@ -60,4 +60,7 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& file);
 /// Nyquist wave number.
 std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const Grid2D& grid);
 
+/// Returns the textures that belong to tables_of(), for GeneratedSurfaces::textures.
+std::vector<SurfaceTexture> textures_of(const std::vector<TwinDraw>& draws);
+
 }  // namespace salebra
