@@ -156,6 +156,16 @@ ForceCurve curve_of_surface(const SurfaceContact& body, const Context& context) 
   ForceCurve curve = sweep_pressures(body.surface, body.material, pressures_about(body.pressure),
                                      sweep_options(context));
   require_converged(curve, context);
+  // In full contact nothing can close further: the force grows without indentation.
+  const auto full = [](const ForceSample& sample) { return !(sample.contact_area_fraction < 1); };
+  for (const ForceSample& sample : curve.samples)
+    if (full(sample))
+      for (const double pressure : body.pressure)
+        require(
+            !(pressure > sample.pressure * (1 - 1e-6)), "pressure",
+            format_quantity(pressure, Dimension::pressure),
+            "presses the surface into full contact, which has no stiffness; choose a smaller one");
+  std::erase_if(curve.samples, full);
   return curve;
 }
 

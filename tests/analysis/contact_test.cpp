@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
@@ -101,6 +102,26 @@ TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[analy
       hertz.parameters_at({}, indentation_of(hertz), indentation_of(hertz));
   CHECK(parameters.contact_modulus == Approx(1e9).epsilon(1e-12));
   CHECK(parameters.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
+}
+
+TEST_CASE("A pressure of full contact is named, and loads of full contact make no law",
+          "[analysis]") {
+  // A sine wave of amplitude a closes at the mean pressure πE*a/λ for waves along one axis.
+  const Grid2D grid{64, 4, 1, 1.0 / 16};
+  Field heights(grid.nx, grid.ny);
+  for (Index i = 0; i < grid.nx; ++i)
+    heights.row(i) = 1e-3 * std::cos(2 * std::numbers::pi * double(i) / double(grid.nx));
+  const double closing = std::numbers::pi * 1e-3;
+  const auto solved = [&](double share) {
+    return solve(SurfaceContact{.surface = {grid, heights, true, "wave"},
+                                .material = Material::of_contact_modulus(1, 0.3),
+                                .pressure = {0.5 * closing, share * closing}});
+  };
+  CHECK_THROWS_WITH(solved(1.5), Catch::Contains("pressure: ") && Catch::Contains("full contact"));
+  // The sweep about 0.9 reaches beyond closing.
+  const ContactSolution open = solved(0.9);
+  CHECK(open.points.size() == 2);
+  for (const ForceSample& sample : open.curve->samples) CHECK(sample.contact_area_fraction < 1);
 }
 
 TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[analysis]") {
