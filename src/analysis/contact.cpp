@@ -63,6 +63,9 @@ std::vector<OperatingPoint> at_indentations(const std::vector<double>& values) {
   return points;
 }
 
+/// The load of a sample differs by this from the load that was asked of it.
+constexpr double round_off = 1e-12;
+
 /// Throws InvalidInput for a value outside the range of the curve. The message names the control
 /// quantity that the user gave (such as a pressure), since the value is later converted to a force
 /// or an indentation.
@@ -71,7 +74,8 @@ void require_on_curve(const OperatingPoints& at, const ForceCurve& curve) {
   const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.control)));
   for (const double value : at.values)
     // A body that lifts off has a mean indentation below the curve.
-    require(!((value < low && at.control != ControlQuantity::indentation) || value > high),
+    require(!((value < low && at.control != ControlQuantity::indentation) ||
+              value > high * (1 + round_off)),
             name_of(at.control), format_quantity(value, dimension),
             fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
                         "the curve",
@@ -89,7 +93,9 @@ std::vector<OperatingPoint> points_on(const ForceCurve& curve, const OperatingPo
       return at_indentations(values);
     case ControlQuantity::pressure:
       require_positive(curve.nominal_area, "nominal_area of " + source);
-      for (double& value : values) value *= curve.nominal_area;
+      for (double& value : values)
+        value = std::min(value * curve.nominal_area,
+                         std::ranges::max(curve.column(&ForceSample::force)));
       return at_forces(values);
     case ControlQuantity::mean_gap:
       break;
