@@ -131,7 +131,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
       if (high[k] < 2 * mean[k])
         CHECK(mean[k] - low[k] == Approx(high[k] - mean[k]).epsilon(1e-4));
       else
-        CHECK(low[k] * high[k] == Approx(mean[k] * mean[k]).epsilon(1e-3));  // Student's
+        CHECK(low[k] * high[k] == Approx(mean[k] * mean[k]).epsilon(1e-3));
     }
   }
   const json& damping = two["models"]["gw_moments"]["damping"]["damping_constant"];
