@@ -146,8 +146,12 @@ std::string preparation(const MeasuredSurface& surface) {
     lines += fmt::format("crop = [{}, {}, {}, {}]\n", toml_length(part->x0), toml_length(part->y0),
                          toml_length(part->x1), toml_length(part->y1));
   if (surface.fill) lines += "fill = true\n";
-  return lines.empty() ? "# transpose, pixel_size, lateral_unit, channel, despike, crop, fill: "
-                         "like the options of these names\n"
+  if (const auto& cutoff = surface.filters.s_filter)
+    lines += fmt::format("s_filter = {}\n", toml_length(*cutoff));
+  if (const auto& cutoff = surface.filters.l_filter)
+    lines += fmt::format("l_filter = {}\n", toml_length(*cutoff));
+  return lines.empty() ? "# transpose, pixel_size, lateral_unit, channel, despike, crop, fill, "
+                         "s_filter, l_filter: like the options of these names\n"
                        : lines;
 }
 

@@ -55,8 +55,8 @@ Field smooth(const Surface& surface, double cutoff, FilterAxes axes) {
 
 void require_cutoff(const Grid2D& grid, FilterAxes axes, const char* field, double cutoff) {
   require_positive(cutoff, field);
-  for (const auto& [points, step, filters] : {std::tuple(grid.nx, grid.dx(), axes.x),
-                                              {grid.ny, grid.dy(), axes.y}}) {
+  for (const auto& [points, step, filters] :
+       {std::tuple(grid.nx, grid.dx(), axes.x), {grid.ny, grid.dy(), axes.y}}) {
     if (points == 1 || !filters) continue;
     require(cutoff >= 2 * step, field, cutoff,
             "m is shorter than two cells; the surface carries no shorter waves");
@@ -68,13 +68,14 @@ void require_cutoff(const Grid2D& grid, FilterAxes axes, const char* field, doub
 }  // namespace
 
 Surface detail::filtered_along(Surface surface, const GaussianFilters& filters, FilterAxes axes) {
+  if (!filters.given()) return surface;
   surface.require_whole("a filter");
   surface.grid.validate();
   if (filters.s_filter) require_cutoff(surface.grid, axes, "s_filter", *filters.s_filter);
   if (filters.l_filter) require_cutoff(surface.grid, axes, "l_filter", *filters.l_filter);
   if (filters.s_filter && filters.l_filter)
     require(*filters.s_filter < *filters.l_filter, "s_filter", *filters.s_filter,
-            "m must be shorter than the l_filter; no wave would be left");
+            "m must be shorter than `l_filter`; no wave would be left");
   if (filters.s_filter) surface.heights = smooth(surface, *filters.s_filter, axes);
   if (filters.l_filter) surface.heights -= smooth(surface, *filters.l_filter, axes);
   return surface;

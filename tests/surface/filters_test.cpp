@@ -55,13 +55,14 @@ TEST_CASE("A wave of the cut-off keeps half of its amplitude, in any direction a
   const double kept = std::exp2(-std::pow(longer / wavelength, 2));
   CHECK((filtered(wave, {.s_filter = longer}).heights - kept * wave.heights).abs().maxCoeff() <
         1e-14);
-  CHECK((filtered(wave, {wavelength / 2, wavelength}).heights -
-         0.5 * std::exp2(-0.25) * wave.heights)
-            .abs()
-            .maxCoeff() < 1e-14);
+  CHECK(
+      (filtered(wave, {wavelength / 2, wavelength}).heights - 0.5 * std::exp2(-0.25) * wave.heights)
+          .abs()
+          .maxCoeff() < 1e-14);
 }
 
-TEST_CASE("White noise keeps the part of its variance under the squared transmission", "[filters]") {
+TEST_CASE("White noise keeps the part of its variance under the squared transmission",
+          "[filters]") {
   // Independent heights of variance 1/3 have equal power in all cycles per cell |f| < 1/2. The
   // filter keeps the integral of 2^(-2(c f)²), c cells to the cut-off, along each axis: √(π/(2 ln
   // 2))/c · erf(c √(2 ln 2)/2). With 512² points and c = 8 about 4600 independent values remain;
@@ -105,7 +106,7 @@ TEST_CASE("Cut-offs that the surface cannot have are refused", "[filters]") {
   CHECK_THROWS_WITH(filtered(surface, {.s_filter = 0.15}),
                     Catch::Contains("s_filter") && Catch::Contains("two cells"));
   CHECK_THROWS_WITH(filtered(surface, {.l_filter = 3.3}), Catch::Contains("longer than the"));
-  CHECK_THROWS_WITH(filtered(surface, {1, 1}), Catch::Contains("shorter than the l_filter"));
+  CHECK_THROWS_WITH(filtered(surface, {1, 1}), Catch::Contains("shorter than `l_filter`"));
   CHECK_THROWS_AS(filtered(surface, {.s_filter = -1}), InvalidInput);
   Surface holes = surface;
   holes.heights.setConstant(std::nan(""));

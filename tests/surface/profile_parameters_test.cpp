@@ -15,7 +15,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 }
 
-TEST_CASE("The parameters of a sine are 2A/π, A/√2, 2A and its wavelength", "[profile_parameters]") {
+TEST_CASE("The parameters of a sine are 2A/π, A/√2, 2A and its wavelength",
+          "[profile_parameters]") {
   // 10 waves of 100 points along x; amplitudes 1, 2 and 3 in three groups of profiles, on an offset
   // that is a waviness across the profiles.
   const double wavelength = 1e-4;
@@ -49,7 +50,8 @@ TEST_CASE("Rz of a known profile is the mean over its sections", "[profile_param
   Surface profile{{points, 1, double(points), 1}, Field(points, 1), false, "test"};
   for (Index i = 0; i < points; ++i) {
     const Index k = (i - 1) / 10, within = (i - 1) % 10;
-    profile.heights(i, 0) = (i % 2 == 0 ? 1.0 : -1.0) * (within == 4 || within == 5 ? 1.0 + double(k) : 1);
+    profile.heights(i, 0) =
+        (i % 2 == 0 ? 1.0 : -1.0) * (within == 4 || within == 5 ? 1.0 + double(k) : 1);
   }
   const ProfileParameters found = profile_parameters(profile, Axis::x, {.l_filter = 10});
   CHECK(found.sections == 5);

@@ -21,8 +21,10 @@ struct GaussianFilters {
 constexpr void describe(auto&& visit, std::type_identity<GaussianFilters>) {
   using enum Dimension;
   using S = GaussianFilters;
-  visit(&S::s_filter, Kept{"s_filter", "cut-off below which waves are removed", length});
-  visit(&S::l_filter, Kept{"l_filter", "cut-off above which waves are removed", length});
+  visit(&S::s_filter,
+        Quantity{"s_filter", length, "cut-off of the S-filter, which removes shorter waves"});
+  visit(&S::l_filter,
+        Quantity{"l_filter", length, "cut-off of the L-filter, which removes longer waves"});
 }
 
 /// Returns the surface that the filters leave: first the S-filter smooths the heights, then the
