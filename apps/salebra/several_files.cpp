@@ -64,8 +64,7 @@ std::vector<std::string> files_like(const std::string& pattern) {
 }  // namespace
 
 bool are_several(const std::vector<std::string>& names) {
-  return names.size() > 1 ||
-         std::ranges::any_of(names, [](const std::string& name) {
+  return names.size() > 1 || std::ranges::any_of(names, [](const std::string& name) {
            return is_folder(name) || is_pattern(name);
          });
 }
@@ -124,14 +123,13 @@ FileColumn column(const std::string& heading, const std::string& path, const std
                   bool averaged) {
   const std::size_t dot = path.rfind('.');
   const std::string object = dot == path.npos ? "" : path.substr(0, dot);
-  return {.heading = heading,
-          .name = name,
-          .value = [path](const Json& answer, std::size_t load) {
-            return member(answer, path, load);
-          },
-          .dimension =
-              quantity_of(path.substr(dot + 1), object.substr(object.rfind('.') + 1)).dimension,
-          .averaged = averaged};
+  return {
+      .heading = heading,
+      .name = name,
+      .value = [path](const Json& answer, std::size_t load) { return member(answer, path, load); },
+      .dimension =
+          quantity_of(path.substr(dot + 1), object.substr(object.rfind('.') + 1)).dimension,
+      .averaged = averaged};
 }
 
 void add_damping_columns(FileTable& table, const std::string& path,
@@ -175,9 +173,7 @@ void add_damping_columns(FileTable& table, const std::string& path,
 
 namespace {
 
-double number_in(const Json& value) {
-  return value.is_number() ? value.number() : std::nan("");
-}
+double number_in(const Json& value) { return value.is_number() ? value.number() : std::nan(""); }
 
 std::string cell(const FileColumn& column, const Json& value) {
   if (value.is_string()) return value.text();
@@ -196,7 +192,8 @@ struct Spread {
 Spread spread_of(const FileColumn& column, const std::vector<const FileAnswer*>& files,
                  std::size_t load) {
   std::vector<double> values;
-  for (const FileAnswer* file : files) values.push_back(number_in(column.value(file->answer, load)));
+  for (const FileAnswer* file : files)
+    values.push_back(number_in(column.value(file->answer, load)));
   const auto count = static_cast<double>(values.size());
   Spread spread{0, 0};
   for (const double value : values) spread.mean += value / count;
@@ -271,19 +268,21 @@ class FilesAnswer {
     });
   }
 
-  /// Whether a column of the text has no number for a file.
+  /// Whether the first column that is averaged has no number for a file.
   bool lacks_numbers() const {
+    const auto column = std::ranges::find_if(
+        table_.columns, [](const FileColumn& one) { return one.averaged && !one.heading.empty(); });
     return std::ranges::any_of(good_, [&](const FileAnswer* file) {
       for (std::size_t load = 0; load < table_.loads; ++load)
-        for (const FileColumn* column : shown_)
-          if (column->value(file->answer, load).is_null()) return true;
+        if (column->value(file->answer, load).is_null()) return true;
       return false;
     });
   }
 
   static std::string quoted(const std::string& text) {
     std::string quoted = "\"";
-    for (const char symbol : printable_line(text)) quoted += symbol == '"' ? "\"\"" : std::string(1, symbol);
+    for (const char symbol : printable_line(text))
+      quoted += symbol == '"' ? "\"\"" : std::string(1, symbol);
     return quoted + "\"";
   }
 
@@ -323,7 +322,8 @@ class FilesAnswer {
         loads.push_back(load_of(file, load));
       }
     for (std::size_t load = 0; load < table_.loads; ++load)
-      for (const std::string& name : {fmt::format("mean of {}", good_.size()), std::string("spread")}) {
+      for (const std::string& name :
+           {fmt::format("mean of {}", good_.size()), std::string("spread")}) {
         names.push_back(name);
         loads.push_back(load_of(good_.front(), load));
       }
@@ -334,8 +334,9 @@ class FilesAnswer {
       longest = std::max(longest, columns_of(loads[k]));
     }
     for (std::size_t k = 0; k < names.size(); ++k)
-      names[k] += std::string(widest - columns_of(names[k]) + 2 + longest - columns_of(loads[k]), ' ') +
-                  loads[k];
+      names[k] +=
+          std::string(widest - columns_of(names[k]) + 2 + longest - columns_of(loads[k]), ' ') +
+          loads[k];
     return names;
   }
 
@@ -408,9 +409,8 @@ void answer_files(const std::vector<std::string>& files, const FileTable& table,
   require(!answers.empty(), "--csv", table.csv, "is the only file; name the surfaces");
   // A mistake in the options fails every file; it is reported once.
   if (!interruption && !answers.front().failure.empty() &&
-      std::ranges::all_of(answers, [&](const FileAnswer& one) {
-        return one.failure == answers.front().failure;
-      }))
+      std::ranges::all_of(
+          answers, [&](const FileAnswer& one) { return one.failure == answers.front().failure; }))
     std::rethrow_exception(first);
   const FilesAnswer found(table, answers);
   if (!table.csv.empty() && found.failed() < answers.size())

@@ -36,8 +36,8 @@ struct FileColumn {
   /// The value for a file and a load; a text, boolean or number. Null if it is not known.
   std::function<Json(const Json& answer, std::size_t load)> value;
   Dimension dimension = Dimension::dimensionless;
-  bool averaged = true;  ///< whether mean and spread between the files have a meaning
-  double scale = 1;      ///< the text shows the value times this number
+  bool averaged = true;   ///< whether mean and spread between the files have a meaning
+  double scale = 1;       ///< the text shows the value times this number
   std::string unit = {};  ///< of the CSV file, if `dimension` has no such unit
 };
 
@@ -52,7 +52,7 @@ struct FileTable {
   std::vector<FileColumn> columns;
   std::size_t loads = 1;  ///< rows of each file; a first column "pressure" then tells them apart
   std::string csv = {};   ///< file of --csv; empty: none
-  std::string note = {};  ///< printed below the text if a file has no number in a column
+  std::string note = {};  ///< printed below the text if the first averaged column lacks a number
 };
 
 /// Adds the damping constant per nominal area with its relative error, the part of it that is
