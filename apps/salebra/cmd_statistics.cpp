@@ -375,6 +375,25 @@ FileColumn lay_column() {
           .averaged = false};
 }
 
+/// A parameter of the fitted law with its 95 % limits, which are often wide: "0.73 (0.51 … 0.89)".
+FileColumn fitted_column(const std::string& heading, const std::string& name) {
+  return {.heading = heading,
+          .name = "",
+          .value = [name](const Json& answer, std::size_t) -> Json {
+            const Json whole = member(answer, name, 0);
+            const Dimension dimension = quantity_of(name).dimension;
+            const auto text = [&](const Json& value) {
+              return format_quantity(value.number(), dimension, 2);
+            };
+            const Json value = whole.is_object() ? member(whole, "value", 0) : whole;
+            if (!value.is_number() || std::isnan(value.number())) return {};
+            return whole.is_object() ? fmt::format("{} ({} … {})", text(value), text(whole["low"]),
+                                                   text(whole["high"]))
+                                     : text(value);
+          },
+          .averaged = false};
+}
+
 FileTable table_of_files(const std::string& csv) {
   FileTable table{
       .columns = {pair_column("points", "nx", "ny"), pair_column("size", "size_x", "size_y"),
@@ -399,11 +418,12 @@ FileTable table_of_files(const std::string& csv) {
     table.columns.push_back(column("", name, name));
   for (const auto& [heading, name] :
        {std::pair("H", "hurst"), {"roll-off", "rolloff"}, {"cut-off", "short_cutoff"}}) {
+    table.columns.push_back(fitted_column(heading, name));
+    table.columns.push_back(column("", name, name));
     // A profile has no limits of its roll-off and shortest wave.
-    table.columns.push_back(column(heading, std::string(name), name));
     table.columns.back().value = [name = std::string(name)](const Json& answer, std::size_t) {
       const Json whole = member(answer, name, 0);
-      return whole.is_object() ? member(answer, name + ".value", 0) : whole;
+      return whole.is_object() ? member(whole, "value", 0) : whole;
     };
     for (const char* limit : {"low", "high"})
       table.columns.push_back(

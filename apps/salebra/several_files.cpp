@@ -394,7 +394,7 @@ void answer_files(const std::vector<std::string>& files, const FileTable& table,
       one.failure = std::string(error.what()) + " (--fill)";
       if (!first) first = std::current_exception();
     } catch (const InvalidInput& error) {
-      one.failure = with_option(error);
+      one.failure = in_options(with_option(error));
       if (!first) first = std::current_exception();
     } catch (const Error& error) {
       one.failure = in_options(error.what());

@@ -10,8 +10,7 @@
 
 namespace {
 
-const std::string law =
-    "--hurst 0.8 --rolloff 2um --short-cutoff 500nm --rms-height 30nm --seed ";
+const std::string law = "--hurst 0.8 --rolloff 2um --short-cutoff 500nm --rms-height 30nm --seed ";
 const std::string body = " --contact-modulus 10GPa --poisson 0.3 ";
 const std::string drag = " --normal-amplitude 5nm --drag-velocity 1um/s --frequency 20kHz ";
 
@@ -67,8 +66,7 @@ std::vector<std::map<std::string, std::string>> rows_of(const std::string& text)
 
 }  // namespace
 
-TEST_CASE("Three commands give the tables of a folder in which two maps are broken",
-          "[several]") {
+TEST_CASE("Three commands give the tables of a folder in which two maps are broken", "[several]") {
   const ProgramTest test;
   make_maps(test);
   const auto check_failures = [](const ProgramTest::Result& result) {
@@ -121,8 +119,8 @@ TEST_CASE("Three commands give the tables of a folder in which two maps are brok
             Approx(number(alone, std::string("/") + name)).epsilon(1e-6));
   }
 
-  const auto damping = test.run("damping --surface maps --pressure 5MPa,20MPa --csv damping.csv" +
-                                body + drag);
+  const auto damping =
+      test.run("damping --surface maps --pressure 5MPa,20MPa --csv damping.csv" + body + drag);
   check_failures(damping);
   const auto lost = rows_of(test.read("damping.csv"));
   REQUIRE(lost.size() == 2 * 3 + 2);
@@ -158,10 +156,11 @@ TEST_CASE("A study of several surfaces has a row for each surface and pressure",
           Approx(number(alone, "/damping/damping_constant/mean" + load) / area).epsilon(1e-12));
   }
   // One study file serves all; a surface beside it is studied alone, as with --surface.
-  test.write("one.toml", "[material]\ncontact_modulus = 1e10\npoisson = 0.3\n[contact]\npressures = "
-                         "[5e6, 1e7, 2e7, 4e7]\ntangential_stiffness = \"proportional\"\n[damping]\n"
-                         "mode = \"drag\"\nnormal_amplitude = 5e-9\ndrag_velocity = 1e-6\nfrequency "
-                         "= 2e4\n");
+  test.write("one.toml",
+             "[material]\ncontact_modulus = 1e10\npoisson = 0.3\n[contact]\npressures = "
+             "[5e6, 1e7, 2e7, 4e7]\ntangential_stiffness = \"proportional\"\n[damping]\n"
+             "mode = \"drag\"\nnormal_amplitude = 5e-9\ndrag_velocity = 1e-6\nfrequency "
+             "= 2e4\n");
   const auto several = test.run("study one.toml maps/1.h5 maps/2.gsf --json --quiet");
   CHECK(several.status == 0);
   const auto answers = nlohmann::json::parse(several.out);
@@ -193,8 +192,7 @@ TEST_CASE("Failures do not stop the other files, and decide on the exit status",
   const std::string units = " --height-unit nm --size-x 5um --size-y 5um ";
   test.write("whole.txt", "1 3 2 1 1\n1 2 1 3 4\n3 2 1 1 1\n2 1 4 1 3\n1 2 1 2 2\n");
   CHECK(test.run("statistics holes.txt whole.txt" + units).status == 0);
-  const auto holed =
-      test.run("contact holes.txt whole.txt --pressure 1MPa" + units + body);
+  const auto holed = test.run("contact holes.txt whole.txt --pressure 1MPa" + units + body);
   CHECK(holed.status == 1);
   CHECK(line_of(holed.out, "whole.txt").size() > 3);
   CHECK(holed.out.find("holes.txt: ") != std::string::npos);
