@@ -199,21 +199,23 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
+  double asymmetric = 0;
   SelfAffineFit fit;
   SurfaceLay lay;
   if (undefined == 0 || arguments.surface.fill) {
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
+    std::optional<PowerSpectrum> unfiltered;
+    if (surfaces.measured)
+      unfiltered =
+          power_spectrum(undefined == 0 ? *surfaces.measured : filled(*surfaces.measured), window);
+    const PowerSpectrum& of_law = unfiltered ? *unfiltered : *spectrum;
+    asymmetric = of_law.asymmetric_wavelength;
     // Without a window, the spectrum of a surface that is not periodic contains the steps between
     // opposite edges, which would falsify the fit.
-    if (complete.periodic || spectrum->windowed) {
-      const Surface& measured = surfaces.unfiltered();
-      fit = fit_self_affine(
-          surfaces.measured ? power_spectrum(undefined == 0 ? measured : filled(measured), window)
-                            : *spectrum,
-          reliable_wavelength(arguments, measured));
-    }
+    if (complete.periodic || spectrum->windowed)
+      fit = fit_self_affine(of_law, reliable_wavelength(arguments, surfaces.unfiltered()));
     lay = surface_lay(complete);
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
@@ -225,7 +227,7 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
     if (!fit.hurst.found())
       session.inform(surface.periodic || spectrum->windowed ? no_hurst
                                                             : "no Hurst exponent without a window");
-    note_asymmetry(arguments, spectrum->asymmetric_wavelength, session);
+    note_asymmetry(arguments, asymmetric, session);
   }
   if (!spectrum)
     session.inform(fmt::format(
