@@ -16,6 +16,7 @@
 #include "option_words.hpp"
 #include "program.hpp"
 #include "results/columns.hpp"
+#include "several_files.hpp"
 
 namespace salebra::cli {
 
@@ -160,7 +161,49 @@ void check(const ContactArguments& arguments, std::size_t points, const Session&
   arguments.checkpoint.check(session, arguments.initial);
 }
 
-void run(const ContactArguments& arguments, Session& session) {
+FileTable table_of_files(const ContactArguments& arguments, std::size_t loads) {
+  FileTable table{.columns = {column("pressure", "curve.pressure", "pressure", false)},
+                  .loads = loads,
+                  .csv = arguments.csv};
+  for (const auto& [heading, name] : {std::pair("A/A0", "contact_area_fraction"),
+                                      {"mean gap", "mean_gap"},
+                                      {"indentation", "indentation"},
+                                      {"K/A0", "normal_stiffness_per_area"},
+                                      {"K_t/A0", "tangential_stiffness_per_area"},
+                                      {"h", "thermal_conductance"},
+                                      {"C", "electrical_conductance"},
+                                      {"flow x", "pressure_flow_factor_x"},
+                                      {"flow y", "pressure_flow_factor_y"}})
+    table.columns.push_back(column(heading, std::string("curve.") + name, name));
+  return table;
+}
+
+/// Presses each of several surfaces to the same pressures.
+void press_files(ContactArguments arguments, const std::vector<std::string>& files,
+                 Session& session) {
+  require_options_of_one(session, {{!arguments.surface.recipe.empty(), "--recipe"},
+                                   {arguments.model != "bem", "--model"},
+                                   {arguments.adhesive(), "--work-of-adhesion"},
+                                   {arguments.groups > 0, "--groups"},
+                                   {arguments.dry_run.dry_run, "--dry-run"}});
+  arguments.command->require_none_of(
+      once, "takes one surface, and several are given; --csv writes their table");
+  const std::vector<double> pressures = arguments.at.pressure;
+  require_that(!pressures.empty(), "--pressure",
+               "not given; several surfaces are compared at the same nominal pressures");
+  arguments.surface.file = files.front();
+  check(arguments, arguments.count(), session);
+  answer_files(files, table_of_files(arguments, pressures.size()), session,
+               [&](const std::string& file) {
+                 arguments.surface.file = file;
+                 press_often(arguments, session);
+               });
+}
+
+void run(ContactArguments arguments, Session& session) {
+  const std::vector<std::string> files = arguments.surface.several(!arguments.csv.empty());
+  if (!files.empty()) return press_files(std::move(arguments), files, session);
+  require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; give SURFACE");
   const std::size_t points = arguments.count();
   check(arguments, points, session);
   if (arguments.model != "bem") return press_summits(arguments, session);
@@ -257,7 +300,8 @@ void add_contact_command(Program& program) {
       "maps of pressure and gap at one load; pressure over gap, area and stiffness for several",
       OutputCheck::curve);
   arguments->command = &command;
-  arguments->surface.add_to(command, false);
+  arguments->surface.add_several_to(command);
+  add_table_file(command, arguments->csv);
   arguments->surface.add_recipe_to(command);
   std::vector<std::string> models;
   for (const ContactModel model :

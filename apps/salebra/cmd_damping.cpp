@@ -21,6 +21,7 @@
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
 #include "results/quantity_group.hpp"
+#include "several_files.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -37,6 +38,7 @@ struct DampingArguments {
   AssumptionOptions assumptions;
   MapOptions maps;
   BodyOptions body;
+  std::string csv;  ///< table of several surfaces
 
   /// Whether the command computes the contact as a damper: with a body, or for a slow drag whose
   /// velocity is not given, since the damping constant does not depend on it.
@@ -367,7 +369,48 @@ void damp(const DampingArguments& arguments, Session& session) {
       .answer(session, object, text);
 }
 
-void run(const DampingArguments& arguments, Session& session) {
+/// The loss of each of several surfaces at the same pressures.
+void lose_of_files(DampingArguments arguments, const std::vector<std::string>& files,
+                   Session& session) {
+  require_options_of_one(session, {{arguments.maps.given(), "--stress-map"},
+                                   {!arguments.trajectory.empty(), "--trajectory"},
+                                   {arguments.work_of_adhesion.has_value(), "--work-of-adhesion"},
+                                   {arguments.body.given(), "--mass"}});
+  const std::vector<double> pressures = arguments.law.at.pressure;
+  require_that(!pressures.empty(), "--pressure",
+               "not given; several surfaces are compared at the same nominal pressures");
+  if (arguments.of_damper()) require_options({"--drag-velocity"}, "a table of several surfaces");
+  FileTable table{
+      .columns = {{.heading = "pressure",
+                   .name = "pressure",
+                   .value = [&](const Json&, std::size_t load) -> Json { return pressures[load]; },
+                   .dimension = Dimension::pressure,
+                   .averaged = false}},
+      .loads = pressures.size(),
+      .csv = arguments.csv};
+  add_damping_columns(table, "", [&](const Json& answer, std::size_t load) {
+    return member(answer, "force", load).number() / pressures[load];
+  });
+  for (const auto& [heading, name] : {std::pair("K/A0", "normal_stiffness_per_area"),
+                                      {"K_t/A0", "tangential_stiffness_per_area"},
+                                      {"in contact", "contact_time"}})
+    table.columns.push_back(column(heading, name, name));
+  table.columns.push_back(column("validity", "validity", "validity", false));
+  table.columns.back().unit = "text";
+  answer_files(files, table, session, [&](const std::string& file) {
+    arguments.law.surface.file = file;
+    lose(arguments, session);
+  });
+}
+
+void run(DampingArguments arguments, Session& session) {
+  arguments.law.surface.names = {arguments.law.surface.file};
+  if (!arguments.law.surface.file.empty()) {
+    const std::vector<std::string> files =
+        arguments.law.surface.several(!arguments.csv.empty(), "--surface");
+    if (!files.empty()) return lose_of_files(std::move(arguments), files, session);
+  }
+  require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; give --surface");
   require_that(arguments.work_of_adhesion || !arguments.adhesion_range, "--adhesion-range",
                "given without --work-of-adhesion; give both");
   if (arguments.work_of_adhesion) {
@@ -403,6 +446,7 @@ void add_damping_command(Program& program) {
       "the map, the loss or damping constant over the quantity given as a range, one period of a "
       "single motion, or the contact at rest");
   arguments->law.add_to(command);
+  add_table_file(command, arguments->csv);
   arguments->motion.add_to(command, true);
   const std::string normal = "Normal motion";
   add_values(

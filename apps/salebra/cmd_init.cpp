@@ -40,7 +40,7 @@ rms_height = "30nm"          # or give rms_slope
 # stretch_along = 5          # a lay: correlation length along it over that across it, to which rolloff and short_cutoff belong
 # lay_angle = "0deg"         # from the x axis to the lay
 # skewness = -1              # of heights that are not Gaussian; with kurtosis, which is 3 for Gaussian ones
-# kurtosis = 4.5
+# kurtosis = 4.5             # of the same heights, at least skewness^2 + 1
 # twin = "surface.h5"        # instead of hurst to rms_height: result of `salebra twin` for several scans of a part
 # psd_table = "psd.txt"      # instead of hurst to rms_height: two columns, q in rad/m and C(q) in m^4
 method = "filtered-noise"    # Gaussian surfaces; "random-phase" has the same rms height for every seed
@@ -146,8 +146,12 @@ std::string preparation(const MeasuredSurface& surface) {
     lines += fmt::format("crop = [{}, {}, {}, {}]\n", toml_length(part->x0), toml_length(part->y0),
                          toml_length(part->x1), toml_length(part->y1));
   if (surface.fill) lines += "fill = true\n";
-  return lines.empty() ? "# transpose, pixel_size, lateral_unit, channel, despike, crop, fill: "
-                         "like the options of these names\n"
+  if (const auto& cutoff = surface.filters.s_filter)
+    lines += fmt::format("s_filter = {}\n", toml_length(*cutoff));
+  if (const auto& cutoff = surface.filters.l_filter)
+    lines += fmt::format("l_filter = {}\n", toml_length(*cutoff));
+  return lines.empty() ? "# transpose, pixel_size, lateral_unit, channel, despike, crop, fill, "
+                         "s_filter, l_filter: like the options of these names\n"
                        : lines;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
@@ -12,17 +13,20 @@
 #include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/profile_fit.hpp>
+#include <salebra/surface/profile_parameters.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string_view>
+#include <utility>
 
 #include "answers.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
+#include "several_files.hpp"
 #include "surface/asymmetry.hpp"
 #include "surface/psd_convention.hpp"
 #include "surface_figure.hpp"
@@ -33,8 +37,9 @@ namespace {
 
 struct StatisticsArguments {
   SurfaceOptions surface;
-  std::string window = "default", convention = "salebra";
+  std::string window = "default", convention = "salebra", csv;
   bool all = false;
+  bool in_table = false;  ///< whether the surface is one of several
   std::optional<double> tip_radius, resolution;
 };
 
@@ -93,11 +98,40 @@ double reliable_wavelength(const StatisticsArguments& arguments, const Surface& 
                                                       : 0;
 }
 
+constexpr std::string_view law_of_unfiltered =
+    "the fitted law (hurst, rolloff, short_cutoff) and the reliable wavelength are those of the "
+    "heights before the filters";
+
+/// Adds the cut-offs of the filters to the answer, as far as they were given.
+void add_filters(Json& answer, const GaussianFilters& filters) {
+  if (filters.s_filter) answer["s_filter"] = *filters.s_filter;
+  if (filters.l_filter) answer["l_filter"] = *filters.l_filter;
+}
+
+/// The surface before and after the filters. Without filters `measured` is empty.
+struct FilteredSurface {
+  Surface rough;
+  std::optional<Surface> measured = {};
+
+  const Surface& unfiltered() const { return measured ? *measured : rough; }
+};
+
+FilteredSurface read_surface_of(const StatisticsArguments& arguments, Session& session) {
+  SurfaceOptions options = arguments.surface;
+  const GaussianFilters filters = std::exchange(options.filters, {});
+  Surface measured = options.read(session, Undefined::keep);
+  if (!filters.given()) return {std::move(measured)};
+  Surface rough = filtered(measured, filters);
+  return {std::move(rough), std::move(measured)};
+}
+
 /// Grid, roughness and Hurst exponent: the part of the answer that is always printed.
-Json summary(const StatisticsArguments& arguments, const Surface& surface, Index undefined,
+Json summary(const StatisticsArguments& arguments, const FilteredSurface& surfaces, Index undefined,
              const SelfAffineFit& fit, const SurfaceLay& lay) {
+  const Surface& surface = surfaces.rough;
   const HeightStatistics heights = height_statistics(surface);
   Json answer = json_of(surface.grid);
+  add_filters(answer, arguments.surface.filters);
   answer.add(json_of(SurfacePoints{surface.periodic, undefined,
                                    arguments.surface.fill ? undefined : 0, heights.mean}));
   answer.add(json_of(heights));
@@ -107,7 +141,7 @@ Json summary(const StatisticsArguments& arguments, const Surface& surface, Index
   answer["rolloff"] = to_json(fit.rolloff);
   answer["short_cutoff"] = to_json(fit.short_cutoff);
   answer["summits"] = json_of(summit_statistics(find_summits(surface)));
-  answer["reliability"] = json_of(reliability(arguments, surface));
+  answer["reliability"] = json_of(reliability(arguments, surfaces.unfiltered()));
   return answer;
 }
 
@@ -131,10 +165,10 @@ std::vector<ResultTable> spectra(const Surface& complete, const PowerSpectrum& s
   return tables;
 }
 
-/// Computes areal parameters, and adds to `tables` those that a surface with undefined points has
-/// too. spectrum: of the surface with its default window; nullptr if it has undefined points.
+/// Computes areal parameters, and adds to `tables`, unless it is nullptr, those that a surface with
+/// undefined points has too. spectrum: of the surface with its default window; nullptr if it has undefined points.
 ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* spectrum,
-                                 std::vector<ResultTable>& tables) {
+                                 std::vector<ResultTable>* tables) {
   std::optional<CorrelationMap> map;
   std::optional<BearingCurve> curve;
   if (surface.communicator.alone()) {
@@ -143,39 +177,49 @@ ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* sp
   }
   const ArealParameters areal =
       areal_parameters(surface, {map ? &*map : nullptr, spectrum, curve ? &*curve : nullptr});
+  if (!tables) return areal;
   if (map) {
-    tables.push_back(table_of("correlation", lists_of(radial_correlation(*map))));
-    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(*map, Axis::x))));
-    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(*map, Axis::y))));
+    tables->push_back(table_of("correlation", lists_of(radial_correlation(*map))));
+    tables->push_back(table_of("correlation_x", lists_of(profile_correlation(*map, Axis::x))));
+    tables->push_back(table_of("correlation_y", lists_of(profile_correlation(*map, Axis::y))));
   }
-  tables.push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
-  tables.push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
+  tables->push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
+  tables->push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
   if (curve)
-    for (ResultTable& table : height_tables(*curve)) tables.push_back(std::move(table));
+    for (ResultTable& table : height_tables(*curve)) tables->push_back(std::move(table));
   return areal;
 }
 
-void analyse(const StatisticsArguments& arguments, const Surface& surface, Session& session) {
+void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfaces,
+             Session& session) {
+  const Surface& surface = surfaces.rough;
   const PsdConvention convention = *parse_enum<PsdConvention>(arguments.convention);
   const Window window = *parse_enum<Window>(arguments.window);
   const bool all = arguments.all || session.has_output();
   const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
+  double asymmetric = 0;
   SelfAffineFit fit;
   SurfaceLay lay;
   if (undefined == 0 || arguments.surface.fill) {
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
+    std::optional<PowerSpectrum> unfiltered;
+    if (surfaces.measured)
+      unfiltered =
+          power_spectrum(undefined == 0 ? *surfaces.measured : filled(*surfaces.measured), window);
+    const PowerSpectrum& of_law = unfiltered ? *unfiltered : *spectrum;
+    asymmetric = of_law.asymmetric_wavelength;
     // Without a window, the spectrum of a surface that is not periodic contains the steps between
     // opposite edges, which would falsify the fit.
     if (complete.periodic || spectrum->windowed)
-      fit = fit_self_affine(*spectrum, reliable_wavelength(arguments, surface));
+      fit = fit_self_affine(of_law, reliable_wavelength(arguments, surfaces.unfiltered()));
     lay = surface_lay(complete);
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
-  const Json answer = summary(arguments, surface, undefined, fit, lay);
+  const Json answer = summary(arguments, surfaces, undefined, fit, lay);
   if (lay.found()) session.inform(lay_in_words(lay));
   // Only surfaces with this many points in each direction get a note if no exponent was found.
   constexpr Index expected = 32;
@@ -183,22 +227,28 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     if (!fit.hurst.found())
       session.inform(surface.periodic || spectrum->windowed ? no_hurst
                                                             : "no Hurst exponent without a window");
-    note_asymmetry(arguments, spectrum->asymmetric_wavelength, session);
+    note_asymmetry(arguments, asymmetric, session);
   }
   if (!spectrum)
     session.inform(fmt::format(
         "no power spectrum, because {} undefined; --fill fills in the smoothest surface",
         undefined == 1 ? "1 point is" : fmt::format("{} points are", undefined)));
+  if (surfaces.measured) session.inform(law_of_unfiltered);
   Json whole = answer;
-  if (all) {
+  if (all || arguments.in_table) {
     if (!surface.communicator.alone()) session.inform(needs_whole);
     const bool own = undefined == 0 && window == Window::automatic;
-    whole["areal"] = json_of(other_statistics(surface, own ? &*spectrum : nullptr, tables));
+    whole["areal"] =
+        json_of(other_statistics(surface, own ? &*spectrum : nullptr, all ? &tables : nullptr));
+    if (surface.communicator.alone())
+      for (const auto& [axis, name] : {std::pair(Axis::x, "profiles_x"), {Axis::y, "profiles_y"}})
+        whole[name] =
+            json_of(profile_parameters(surfaces.unfiltered(), axis, arguments.surface.filters));
     whole["differences"] = json_of(difference_moments(surface));
   }
   write_tables(session, "statistics", whole, tables);
   if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
-  if (!arguments.all) return session.answer(answer);
+  if (!arguments.all) return session.answer(arguments.in_table ? whole : answer);
   std::string text = to_text(whole);
   for (const ResultTable& table : tables)
     if (table.name == "psd" || table.name == "correlation") text += to_text(table);
@@ -224,15 +274,18 @@ std::string generation(const Grid2D& line, const ProfileFit& fit) {
 
 /// Answers for a line profile with its own statistics, and with the parameters of the isotropic
 /// surface that has such profiles.
-void analyse_profile(const StatisticsArguments& arguments, const Surface& profile,
+void analyse_profile(const StatisticsArguments& arguments, const FilteredSurface& profiles,
                      Session& session) {
+  const Surface& measured = profiles.unfiltered();
+  const Surface& profile = profiles.rough;
   const Index undefined = profile.undefined_points();
   const Surface complete = undefined == 0 ? profile : filled(profile);
-  ProfileFit fit = fit_profile(complete, reliable_wavelength(arguments, complete));
+  const Surface unfiltered = undefined == 0 ? measured : filled(measured);
+  ProfileFit fit = fit_profile(unfiltered, reliable_wavelength(arguments, unfiltered));
   if (const auto trend = parse_enum<Detrend>(arguments.surface.detrend);
-      trend == Detrend::none || trend == Detrend::mean) {
-    // Without detrending, rms height and slope include the straight line that fit_profile()
-    // removes.
+      profiles.measured || trend == Detrend::none || trend == Detrend::mean) {
+    // Rms height and slope are those of the filtered heights and, without detrending, include the
+    // straight line that fit_profile() removes.
     const Index n = complete.grid.nx;
     fit.rms_height = height_statistics(complete).rms_height;
     fit.rms_slope = std::sqrt((complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1))
@@ -243,15 +296,19 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   const ProfilePsd psd = profile_psd(complete, Axis::x, *parse_enum<Window>(arguments.window));
   Json answer{
       {"nx", profile.grid.nx}, {"size_x", profile.grid.lx}, {"undefined_points", undefined}};
+  add_filters(answer, arguments.surface.filters);
   answer.add(json_of(fit));
   answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
   answer["rolloff"] = fit.rolloff;
   answer["short_cutoff"] = fit.short_cutoff;
+  answer["profiles_x"] =
+      json_of(profile_parameters(unfiltered, Axis::x, arguments.surface.filters));
   if (arguments.tip_radius || arguments.resolution)
-    answer["reliability"] = json_of(reliability(arguments, complete));
+    answer["reliability"] = json_of(reliability(arguments, unfiltered));
+  if (profiles.measured) session.inform(law_of_unfiltered);
   if (undefined > 0) session.inform(fmt::format("{} undefined points were filled", undefined));
   if (!fit.hurst.found()) session.inform(no_hurst);
-  note_asymmetry(arguments, detail::asymmetric_wavelength(complete), session);
+  note_asymmetry(arguments, detail::asymmetric_wavelength(unfiltered), session);
   const std::vector<ResultTable> tables{
       psd_table("profile_psd_x", converted(psd, *parse_enum<PsdConvention>(arguments.convention)),
                 psd.modes)};
@@ -261,7 +318,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
     session.inform("For an isotropic surface with such profiles: " + generation(profile.grid, fit));
 }
 
-void run(const StatisticsArguments& arguments, Session& session) {
+void analyse_one(const StatisticsArguments& arguments, Session& session) {
   for (const auto& [given, option] :
        {std::pair(arguments.surface.fill, "--fill"), {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
@@ -269,11 +326,12 @@ void run(const StatisticsArguments& arguments, Session& session) {
   std::vector<std::string> names = spectrum_tables;
   names.insert(names.end(), other_tables.begin(), other_tables.end());
   require_tables(session, names);
-  const Surface surface = arguments.surface.read(session, Undefined::keep);
+  const FilteredSurface surfaces = read_surface_of(arguments, session);
+  const Surface& surface = surfaces.rough;
   if (surface.grid.ny == 1 && surface.grid.nx > 1)
-    return analyse_profile(arguments, surface, session);
+    return analyse_profile(arguments, surfaces, session);
   try {
-    analyse(arguments, surface, session);
+    analyse(arguments, surfaces, session);
   } catch (const InvalidInput& refusal) {
     // A grid of two rows has no curvature. The statistics name `nx` or `ny` in this error, and not
     // the file.
@@ -282,6 +340,112 @@ void run(const StatisticsArguments& arguments, Session& session) {
         arguments.surface.file.empty() ? arguments.surface.recipe : arguments.surface.file,
         refusal.what());
   }
+}
+
+/// A number of points or a length along x and y, "512 x 512".
+FileColumn pair_column(const std::string& heading, const std::string& along_x,
+                       const std::string& along_y) {
+  return {.heading = heading,
+          .name = "",
+          .value = [=](const Json& answer, std::size_t) -> Json {
+            const Json x = member(answer, along_x, 0), y = member(answer, along_y, 0);
+            const auto text = [](const Json& value) {
+              return value.is_number_integer()
+                         ? value.dump()
+                         : format_quantity(value.number(), Dimension::length, 3);
+            };
+            if (x.is_null()) return {};
+            return y.is_null() ? text(x) : text(x) + " x " + text(y);
+          },
+          .averaged = false};
+}
+
+/// The lay as in "5.9 at 12°"; "none" if the surface has none.
+FileColumn lay_column() {
+  return {.heading = "lay",
+          .name = "",
+          .value = [](const Json& answer, std::size_t) -> Json {
+            const Json has = member(answer, "has_lay", 0), ratio = member(answer, "lay_ratio", 0);
+            if (has.is_null() || !ratio.is_number() || std::isnan(ratio.number())) return {};
+            if (!has.truth()) return "none";
+            const double degrees = member(answer, "lay_angle", 0).number() * 180 / std::numbers::pi;
+            return std::isinf(ratio.number())
+                       ? fmt::format("> {:.2g} at {:.0f}°",
+                                     member(answer, "lay_ratio_low", 0).number(), degrees)
+                       : fmt::format("{:.2g} at {:.0f}°", ratio.number(), degrees);
+          },
+          .averaged = false};
+}
+
+/// A parameter of the fitted law with its 95 % limits, which are often wide: "0.73 (0.51 … 0.89)".
+FileColumn fitted_column(const std::string& heading, const std::string& name) {
+  return {.heading = heading,
+          .name = "",
+          .value = [name](const Json& answer, std::size_t) -> Json {
+            const Json whole = member(answer, name, 0);
+            const Dimension dimension = quantity_of(name).dimension;
+            const auto text = [&](const Json& value) {
+              return format_quantity(value.number(), dimension, 2);
+            };
+            const Json value = whole.is_object() ? member(whole, "value", 0) : whole;
+            if (!value.is_number() || std::isnan(value.number())) return {};
+            return whole.is_object() ? fmt::format("{} ({} … {})", text(value), text(whole["low"]),
+                                                   text(whole["high"]))
+                                     : text(value);
+          },
+          .averaged = false};
+}
+
+FileTable table_of_files(const std::string& csv) {
+  FileTable table{
+      .columns = {pair_column("points", "nx", "ny"), pair_column("size", "size_x", "size_y"),
+                  column("", "nx", "nx"), column("", "ny", "ny"), column("", "size_x", "size_x"),
+                  column("", "size_y", "size_y"),
+                  column("", "undefined_points", "undefined_points")},
+      .csv = csv};
+  for (const char* name : {"Sq", "Sa", "Ssk", "Sku", "Sdq"})
+    table.columns.push_back(column(name, std::string("areal.") + name, name));
+  for (const char* name : {"Sz", "Sal", "Str", "Str_max", "Std", "Sdr", "Sk", "Spk", "Svk"})
+    table.columns.push_back(column("", std::string("areal.") + name, name));
+  for (const char* axis : {"x", "y"})
+    for (const char* name : {"Ra", "Rq", "Rz", "Rsm", "Ra_deviation", "Rq_deviation",
+                             "Rz_deviation", "Rsm_deviation"}) {
+      const bool shown = std::string_view(name) == "Ra" || std::string_view(name) == "Rz";
+      table.columns.push_back(column(shown ? fmt::format("{} {}", name, axis) : "",
+                                     fmt::format("profiles_{}.{}", axis, name),
+                                     fmt::format("{}_{}", name, axis)));
+    }
+  table.columns.push_back(lay_column());
+  for (const char* name : {"lay_ratio", "lay_ratio_low", "lay_ratio_high", "lay_angle", "has_lay"})
+    table.columns.push_back(column("", name, name));
+  for (const auto& [heading, name] :
+       {std::pair("H", "hurst"), {"roll-off", "rolloff"}, {"cut-off", "short_cutoff"}}) {
+    table.columns.push_back(fitted_column(heading, name));
+    table.columns.push_back(column("", name, name));
+    // A profile has no limits of its roll-off and shortest wave.
+    table.columns.back().value = [name = std::string(name)](const Json& answer, std::size_t) {
+      const Json whole = member(answer, name, 0);
+      return whole.is_object() ? member(whole, "value", 0) : whole;
+    };
+    for (const char* limit : {"low", "high"})
+      table.columns.push_back(
+          column("", fmt::format("{}.{}", name, limit), fmt::format("{}_{}", name, limit)));
+  }
+  return table;
+}
+
+void run(StatisticsArguments arguments, Session& session) {
+  const std::vector<std::string> files = arguments.surface.several(!arguments.csv.empty());
+  if (files.empty()) {
+    require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; give SURFACE");
+    return analyse_one(arguments, session);
+  }
+  require_options_of_one(session, {{!arguments.surface.recipe.empty(), "--recipe"}});
+  arguments.in_table = true;
+  answer_files(files, table_of_files(arguments.csv), session, [&](const std::string& file) {
+    arguments.surface.file = file;
+    analyse_one(arguments, session);
+  });
 }
 
 }  // namespace
@@ -296,9 +460,10 @@ void add_statistics_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "heights, power spectral density with the fitted law, distribution of heights",
       OutputCheck::any_name);
-  arguments->surface.add_to(command, false);
+  arguments->surface.add_several_to(command);
   arguments->surface.add_recipe_to(command);
   arguments->surface.profiles = true;
+  add_table_file(command, arguments->csv);
   command.add_flag(
       "--all", arguments->all,
       "also print areal parameters, spectra and all other tables; an output file always has them");

@@ -9,9 +9,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/study/study.hpp>
+#include <tuple>
 
 #include "option_words.hpp"
 #include "program.hpp"
+#include "result_tables.hpp"
+#include "several_files.hpp"
 #include "study_command.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
@@ -319,7 +322,7 @@ std::string details(const StudyResult& result) {
          law_verdict(result) + "\n" + ensemble_warnings(result);
 }
 
-void run(const StudyArguments& arguments, Session& session) {
+void run_one(const StudyArguments& arguments, Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
                                       {arguments.shard.has_value(), "--shard"},
                                       {arguments.shard_seconds.has_value(), "--shard-seconds"},
@@ -332,6 +335,73 @@ void run(const StudyArguments& arguments, Session& session) {
     return PointAnswer{study_json(result, answer),
                        study_text(result, answer) + (arguments.verbose ? details(result) : "")};
   });
+}
+
+/// Sets the study file and the surfaces from the names that the command line gives, and returns the
+/// surfaces if they are several. A single name is the study file unless it is a folder or a pattern.
+std::vector<std::string> take_names(StudyArguments& arguments) {
+  if (!arguments.surface.file.empty()) arguments.surface.names = {arguments.surface.file};
+  for (const std::string& name : arguments.names) {
+    const bool study =
+        name.ends_with(".toml") || (arguments.names.size() == 1 && !are_several(arguments.names));
+    require(!study || arguments.configuration.empty(), "CONFIG", name,
+            "is a second study file; all surfaces have one");
+    if (study)
+      arguments.configuration = name;
+    else
+      arguments.surface.names.push_back(name);
+  }
+  return arguments.surface.several(!arguments.csv.empty(), "CONFIG");
+}
+
+/// Studies each of several surfaces with the same material, motion and pressures.
+void run_files(StudyArguments arguments, const std::vector<std::string>& files, Session& session) {
+  require_options_of_one(session, {{!arguments.twin.empty(), "--twin"},
+                                   {arguments.resume, "--resume"},
+                                   {arguments.shard.has_value(), "--shard"},
+                                   {arguments.shard_seconds.has_value(), "--shard-seconds"},
+                                   {arguments.merge, "--merge"},
+                                   {arguments.dry_run.dry_run, "--dry-run"}});
+  arguments.surface.file = files.front();
+  const StudyConfiguration configuration = arguments.study();
+  require_that(!configuration.relative_pressures, "--pressures",
+               "not given in Pa; several surfaces are compared at the same nominal pressures");
+  FileTable table{.columns = {column("pressure", "damping.pressure", "pressure", false)},
+                  .loads = configuration.pressures.size(),
+                  .csv = arguments.csv};
+  if (configuration.adhesion)
+    table.columns = {column("pressure", "curve.pressure", "pressure", false),
+                     column("A/A0", "curve.contact_area_fraction.mean", "contact_area_fraction"),
+                     column("mean gap", "curve.mean_gap.mean", "mean_gap")};
+  else
+    add_damping_columns(table, "damping.", [](const Json& answer, std::size_t load) {
+      return member(answer, "damping.force", load).number() /
+             member(answer, "damping.pressure", load).number();
+    });
+  for (const auto& [heading, path, name] :
+       {std::tuple("l", "decay_length.mean", "decay_length"),
+        {"h", "conductance.thermal_conductance.mean", "thermal_conductance"},
+        {"C", "conductance.electrical_conductance.mean", "electrical_conductance"},
+        {"flow x", "flow_factors.pressure_flow_factor_x.mean", "pressure_flow_factor_x"},
+        {"flow y", "flow_factors.pressure_flow_factor_y.mean", "pressure_flow_factor_y"}}) {
+    table.columns.push_back(column(heading, path, name));
+    table.columns.back().dimension = quantity_of(name).dimension;
+  }
+  if (!configuration.adhesion) {
+    table.columns.push_back(column("validity", "validity", "validity", false));
+    table.columns.back().unit = "text";
+  }
+  answer_files(files, table, session, [&](const std::string& file) {
+    arguments.surface.file = file;
+    run_one(arguments, session);
+  });
+}
+
+void run(StudyArguments arguments, Session& session) {
+  const std::vector<std::string> files = take_names(arguments);
+  if (!files.empty()) return run_files(std::move(arguments), files, session);
+  require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; name them");
+  run_one(arguments, session);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ namespace salebra::cli {
 
 struct ContactArguments {
   const Command* command = nullptr;
+  std::string csv;  ///< table of several surfaces
   SurfaceOptions surface;
   MaterialOptions material;
   std::string model = "bem";

@@ -39,8 +39,10 @@ constexpr std::array descriptions{
                 "statistics, contact by boundary elements and Greenwood-Williamson, the fit of F ~ "
                 "exp(-gap/l), and the damping constant. Reports means with 95 % intervals. "
                 "Surfaces run in parallel, one on each thread. If --output was given, --resume "
-                "continues a run that was stopped. With --shard several processes or machines "
-                "share a study, and --merge puts the result together.\n\nNew here? salebra init "
+                "continues a run that was stopped. Several surfaces, a folder or a pattern are "
+                "studied one by one and give one table, per nominal area. With --shard several "
+                "processes or machines share a study, and --merge puts the result together.\n\nNew "
+                "here? salebra init "
                 "writes a file to start with, --dry-run estimates time and memory."},
     CommandHelp{"report", start, "",
                 "Makes one HTML page from the results of a study, with figures, tables and "
@@ -56,12 +58,17 @@ constexpr std::array descriptions{
                 "the surface. Warns if the grid cannot carry the spectrum.\n\nNext: salebra "
                 "statistics measures the surface, salebra contact presses it."},
     CommandHelp{
-        "statistics", surfaces, "--all --fill --plot --size-x --size-y --detrend",
+        "statistics", surfaces, "--all --csv --fill --plot --size-x --size-y --detrend",
         "Reports size, roughness, moments, summits and self-affine law of a surface, and the "
         "shortest wavelength that the instrument resolves reliably. With --all, or in an output "
         "file, also ISO 25178-2 parameters, power spectra, correlation, structure function, slope "
-        "and curvature by scale, bearing curve and distribution of heights. Only the trend "
-        "(--detrend) is removed, and holes are filled only on request (--fill).\n\nNext: salebra "
+        "and curvature by scale, bearing curve and distribution of heights. With --all also Ra, "
+        "Rq, "
+        "Rz and Rsm of the profiles along x and y. Only the trend is removed (--detrend); "
+        "waves are removed (--s-filter, --l-filter) and holes filled (--fill) only on request. "
+        "Several surfaces, a folder or a pattern give one table with mean and standard deviation "
+        "(spread) "
+        "between the files; --csv writes it with all parameters.\n\nNext: salebra "
         "contact presses the surface, salebra study computes its damping."},
     CommandHelp{"twin", surfaces, "--files --form",
                 "Finds the self-affine spectrum of the surface from which several scans were "
@@ -76,15 +83,17 @@ constexpr std::array descriptions{
     CommandHelp{"convert", surfaces, "--fill",
                 "Reads a surface and writes it in the format given by the extension of OUT. "
                 "docs/formats.md lists what each format keeps."},
-    CommandHelp{"contact", contact,
-                "--pressure --contact-modulus --young --poisson --stiffness --model",
-                "Presses a surface by boundary elements. One load gives area, gap, pressure and "
-                "energy; several loads give a force-gap curve. --stiffness adds the stiffnesses K "
-                "and K_t, which the damping needs. Periodic surfaces repeat without end; "
-                "--boundary free takes a surface alone. --model gw_moments and gw_deterministic "
-                "are the fast theory of Greenwood and Williamson, accurate only at light loads; "
-                "salebra compare shows how accurate on your surface.\n\nNext: salebra fit for the "
-                "decay length, salebra damping --curve for the damping."},
+    CommandHelp{
+        "contact", contact, "--pressure --contact-modulus --young --poisson --stiffness --model",
+        "Presses a surface by boundary elements. One load gives area, gap, pressure and "
+        "energy; several loads give a force-gap curve. --stiffness adds the stiffnesses K "
+        "and K_t, which the damping needs. Periodic surfaces repeat without end; "
+        "--boundary free takes a surface alone. --model gw_moments and gw_deterministic "
+        "are the fast theory of Greenwood and Williamson, accurate only at light loads; "
+        "salebra compare shows how accurate on your surface. Several surfaces, a folder or a "
+        "pattern are pressed to the same pressures and give one table, per nominal area."
+        "\n\nNext: salebra fit for the "
+        "decay length, salebra damping --curve for the damping."},
     CommandHelp{"fit", contact, "--pressure-window --plot",
                 "Fits the decay length l of p = p0 exp(-gap/l) to a curve in a file, with its "
                 "interval, and tests whether the law holds at all."},
@@ -93,17 +102,20 @@ constexpr std::array descriptions{
                 "theory on the same surfaces, from the force-gap curve to the damping constant, "
                 "with intervals. Takes the same study file and options as study, and about twice "
                 "its time; --dry-run estimates it."},
-    CommandHelp{"damping", damping,
-                "--law --curve --surface --normal-amplitude --drag-velocity --frequency "
-                "--friction-coefficient",
-                "Computes the energy that a contact loses in a cycle, and its damping constant, "
-                "from a law, a curve or a surface. Without slip the loss follows from the theorem "
-                "for any amplitude and is compared with the small-amplitude Eqs (12), (15) and "
-                "(16); with a coefficient of friction it includes slip. One quantity may be a "
-                "range, which --plot draws. Under slow shear the contact is a damper, tuned by the "
-                "vibration amplitude: the command gives a map over amplitudes and frequencies, the "
-                "decay of an oscillator, and the amplitude that keeps a slider from stick-slip. "
-                "For an indenter without a motion it gives force, contact radius and stiffness."},
+    CommandHelp{
+        "damping", damping,
+        "--law --curve --surface --normal-amplitude --drag-velocity --frequency "
+        "--friction-coefficient",
+        "Computes the energy that a contact loses in a cycle, and its damping constant, "
+        "from a law, a curve or a surface. Without slip the loss follows from the theorem "
+        "for any amplitude and is compared with the small-amplitude Eqs (12), (15) and "
+        "(16); with a coefficient of friction it includes slip. One quantity may be a "
+        "range, which --plot draws. Under slow shear the contact is a damper, tuned by the "
+        "vibration amplitude: the command gives a map over amplitudes and frequencies, the "
+        "decay of an oscillator, and the amplitude that keeps a slider from stick-slip. "
+        "For an indenter without a motion it gives force, contact radius and stiffness. A folder "
+        "or a quoted pattern as --surface, such as '*.sur', gives one table of its "
+        "surfaces, per nominal area."},
     CommandHelp{"sliding", damping,
                 "--law --curve --surface --friction-coefficient --velocities --mass",
                 "Computes the friction of a contact that slides while it oscillates in the normal "

@@ -17,6 +17,7 @@
 
 #include "io/surface_formats.hpp"
 #include "results/columns.hpp"
+#include "several_files.hpp"
 #include "surface/plausibility.hpp"
 
 namespace salebra::cli {
@@ -186,6 +187,26 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
   app.add_option(field, file, "file with heights, recognised by its content: " + read_extensions())
       ->required(needed)
       ->file(FileUse::input);
+  add_preparation_to(app);
+}
+
+void SurfaceOptions::add_several_to(Command& app, const std::string& field) {
+  app.add_option(field, names,
+                 "files with heights, recognised by their content: " + read_extensions() +
+                     ". Several files, a folder or a quoted pattern such as '*.sur' give one "
+                     "table; files that fail are listed after it (exit status 1, or 2 if all fail)")
+      ->file(FileUse::input);
+  add_preparation_to(app);
+}
+
+std::vector<std::string> SurfaceOptions::several(bool table, const std::string& field) {
+  if (names.empty()) return {};
+  if (table || are_several(names)) return files_of(names, field);
+  file = names.front();
+  return {};
+}
+
+void SurfaceOptions::add_preparation_to(Command& app) {
   const Heading under(app, "Surface");
   add_quantity(app, "--size-x", size_x, Dimension::length,
                "length along x, for files that do not state it");
@@ -219,6 +240,12 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
       app, "--detrend", detrend,
       "trend to remove; default: plane if measured, mean if generated. lines and "
       "median-differences flatten a scan line by line, which changes statistics along y");
+  add_quantity(app, "--s-filter", filters.s_filter, Dimension::length,
+               "Gaussian S-filter of ISO 16610 after the trend: removes waves shorter than this "
+               "cut-off, such as noise");
+  add_quantity(app, "--l-filter", filters.l_filter, Dimension::length,
+               "Gaussian L-filter of ISO 16610 after the trend: removes waves longer than this "
+               "cut-off, the waviness");
 }
 
 void SurfaceOptions::add_recipe_to(Command& app) {
@@ -260,6 +287,7 @@ MeasuredSurface SurfaceOptions::measured() const {
   surface.transpose = transpose;
   surface.despike = despike;
   surface.fill = fill;
+  surface.filters = filters;
   if (!pixel_size.empty()) {
     require(pixel_size.size() <= 2, "--pixel-size", pixel_size.size(),
             "values given; it takes DX or DX,DY");
@@ -280,7 +308,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& communicator,
     session.warn(warnings_of_cells(made.grid));
     session.warn_if(warning_of_heights(made));
     const Detrend trend = parse_enum<Detrend>(detrend).value_or(default_detrend(made));
-    return detrended(std::move(made), trend);
+    return filtered(detrended(std::move(made), trend), filters);
   }
   ReadOptions options = measured().reading();
   if (points) options.undefined = *points;
@@ -291,7 +319,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& communicator,
   session.warn(warnings);
   session.warn(warnings_of_cells(surface.grid));
   const Detrend method = parse_enum<Detrend>(detrend).value_or(default_detrend(surface));
-  return detrended(std::move(surface), method);
+  return filtered(detrended(std::move(surface), method), filters);
 }
 
 std::string_view title_of(GenerationMethod method) {

@@ -109,11 +109,13 @@ struct SurfaceOutline {
 /// Options for the file of a surface (SURFACE), its size and its detrending.
 struct SurfaceOptions {
   std::string file;
+  std::vector<std::string> names;  ///< of commands that take several surfaces
   std::optional<double> size_x, size_y;
   std::string detrend, height_unit, lateral_unit, channel;
   std::vector<double> pixel_size, crop;
   std::optional<double> despike;
   bool fill = false, transpose = false;
+  GaussianFilters filters;
   bool profiles = false;  ///< whether the command also accepts line profiles
   std::string recipe;
   std::uint64_t seed = 1;
@@ -121,11 +123,16 @@ struct SurfaceOptions {
   /// needed: whether a surface must be given. field: how help and messages call it, "SURFACE" for
   /// an argument, "--surface" for an option.
   void add_to(Command& app, bool needed = true, const std::string& field = "SURFACE");
+  /// Does the same with an argument that takes several files, folders and patterns.
+  void add_several_to(Command& app, const std::string& field = "SURFACE");
+  /// The files of `names` if they mean several surfaces; otherwise sets `file` to the one name and
+  /// returns nothing. table: whether a table was requested even of one surface.
+  std::vector<std::string> several(bool table, const std::string& field = "SURFACE");
   /// Adds --recipe and --seed, which generate a surface in place of SURFACE.
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
-  /// Reads or generates the surface, spread over the processes of the session, and detrends it by
-  /// --detrend or the default for its kind. points: what to do with undefined points; by default
+  /// Reads or generates the surface, spread over the processes of the session, detrends it by
+  /// --detrend or the default for its kind, and applies the filters. points: what to do with undefined points; by default
   /// they are filled if they are few, or all of them with --fill, because contacts need every
   /// point. Warns of cells, sizes and heights that are valid but suspicious.
   Surface read(Session& session, std::optional<Undefined> points = {}) const {
@@ -140,6 +147,9 @@ struct SurfaceOptions {
   /// Size, points and origin of the surface. Reads a file, but does not generate the surface of a
   /// recipe.
   SurfaceOutline outline(Session& session) const;
+
+ private:
+  void add_preparation_to(Command& app);
 };
 
 /// Warns of cells more than ten times as long as wide, which are valid but probably a mistake.

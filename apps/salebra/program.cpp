@@ -182,7 +182,9 @@ Command& Program::add_command(const std::string& name, const std::string& what,
         action(session);
       });
   command.under(common_options);
-  command.add_flag("--json", common->json, "print exactly one JSON object, in SI units");
+  command.add_flag(
+      "--json", common->json,
+      "print exactly one JSON object, in SI units; of several surfaces a list of objects");
   command.add_option("-o,--output", common->output, "file to write")->file(FileUse::output);
   command.add_flag("--overwrite", common->overwrite, "replace an existing output file");
   command.add_option("--threads", common->threads, "threads to use; 0 means all")

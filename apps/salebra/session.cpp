@@ -213,7 +213,7 @@ Progress Session::progress() {
 Context Session::context() { return {progress(), interrupted}; }
 
 void Session::inform(std::string_view text) {
-  if (options_.quiet || !communicator().is_root()) return;
+  if (options_.quiet || !file_.empty() || !communicator().is_root()) return;
   bar_.clear();
   print_to_stderr(fmt::format("{}\n", printable(text)));
 }
@@ -223,8 +223,12 @@ void Session::warn(std::string_view text) {
   const std::string& said = warnings_.emplace_back(printable(in_options(text)));
   if (options_.quiet) return;
   bar_.clear();
-  print_to_stderr(fmt::format("{}: {} {}\n", program_name(),
-                              emphasised("warning:", Emphasis::warning, STDERR_FILENO), said));
+  // Readers of files name the file themselves.
+  const std::string of_file =
+      file_.empty() || said.starts_with(file_ + ": ") ? "" : printable(file_) + ": ";
+  print_to_stderr(fmt::format("{}: {} {}{}\n", program_name(),
+                              emphasised("warning:", Emphasis::warning, STDERR_FILENO), of_file,
+                              said));
 }
 
 void Session::warn(const std::vector<std::string>& lines) {
@@ -237,14 +241,33 @@ void Session::warn_if(const std::optional<std::string>& text) {
 
 void Session::answer(const Json& object, const std::string& text) {
   if (!communicator().is_root()) return;
+  Json all = object;
+  if (all.is_object() && !warnings_.empty()) all["warnings"] = warnings_;
+  if (!file_.empty()) {
+    answer_ = std::move(all);
+    return;
+  }
   bar_.clear();
   if (options_.json) {
-    Json all = object;
-    if (!warnings_.empty()) all["warnings"] = warnings_;
     print_answer(all.dump(2) + "\n");
   } else {
     print_answer(printable(text));
   }
+}
+
+Json Session::answer_of(const std::string& file, const std::function<void()>& run) {
+  struct Guard {
+    Session& session;
+    ~Guard() {
+      session.file_.clear();
+      session.warned_.clear();
+      session.warnings_.clear();
+    }
+  } guard{*this};
+  file_ = file;
+  answer_ = {};
+  run();
+  return std::move(answer_);
 }
 
 void Session::answer(const Json& object) {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
@@ -106,6 +107,9 @@ class Session {
   void answer(const Json& object, const std::string& text);
   /// Prints an object completed by with_processes(), as JSON or laid out as text.
   void answer(const Json& object);
+  /// Calls run() for one of several files and returns the answer that it would have printed, with its
+  /// warnings. Warnings are printed with the name of the file; notes are left out.
+  Json answer_of(const std::string& file, const std::function<void()>& run);
   /// Adds the numbers of processes and threads to an answer of salebra-mpi.
   Json with_processes(Json object) const;
 
@@ -121,6 +125,8 @@ class Session {
   bool may_read_output_ = false;
   std::set<std::string> warned_;
   std::vector<std::string> warnings_;  ///< all warnings that were printed
+  std::string file_;                   ///< the file of answer_of() while it runs
+  Json answer_;                        ///< its answer
 };
 
 /// Thrown by --merge if surfaces of the study are missing; the program then exits with status 3.

@@ -28,6 +28,7 @@
 #include "dry_run.hpp"
 #include "results/answer_json.hpp"
 #include "results/columns.hpp"
+#include "several_files.hpp"
 #include "study/surface_table.hpp"
 #include "text.hpp"
 
@@ -60,11 +61,22 @@ class Pace {
 }  // namespace
 
 void StudyArguments::add_to(Command& command, bool over_processes) {
-  command
-      .add_option(
-          "CONFIG", configuration,
-          "study file (TOML); options override its entries, a material option all of [material]")
-      ->file(FileUse::input);
+  const std::string file =
+      "study file (TOML); options override its entries, a material option all of [material]";
+  if (over_processes) {
+    command
+        .add_option(
+            "CONFIG", names,
+            file +
+                ". Several files, a folder or a quoted pattern such as '*.sur' are surfaces "
+                "(a study file among them ends in .toml): each is studied, and all give one "
+                "table; files that fail are listed after it (exit status 1, or 2 if all "
+                "fail)")
+        ->file(FileUse::input);
+    add_table_file(command, csv);
+  } else {
+    command.add_option("CONFIG", configuration, file)->file(FileUse::input);
+  }
   surface.add_to(command, false, "--surface");
   command
       .add_option("--twin", twin,

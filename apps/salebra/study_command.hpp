@@ -20,6 +20,8 @@ namespace salebra::cli {
 
 struct StudyArguments {
   std::string twin, configuration;
+  std::vector<std::string> names;  ///< of `study`: study file and surfaces
+  std::string csv;                 ///< of `study`: table of several surfaces
   SurfaceOptions surface;
   MaterialOptions material;
   Conduction conduction;
@@ -39,7 +41,8 @@ struct StudyArguments {
   bool verbose = false;  ///< only an option of `study`
   int groups = 0;        ///< number of groups of processes; 0: one group
 
-  /// over_processes: whether several processes of salebra-mpi may compute the study.
+  /// over_processes: whether several processes of salebra-mpi may compute the study, and whether it
+  /// takes several surfaces.
   void add_to(Command& command, bool over_processes);
   /// The study in the study file, or the default study of a measured surface, after the options
   /// have replaced its values.

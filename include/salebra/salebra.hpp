@@ -22,4 +22,5 @@
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>
+#include <salebra/surface/filters.hpp>
 #include <salebra/surface/moments.hpp>

@@ -66,8 +66,8 @@ InvalidInput
              std::optional<double> size_x, std::optional<double> size_y,
              const std::string& height_unit, bool transpose, const PixelSize& pixel_size,
              const std::string& lateral_unit, std::optional<double> despike,
-             const std::optional<std::vector<double>>& crop, bool fill,
-             const std::string& channel) {
+             const std::optional<std::vector<double>>& crop, bool fill, const std::string& channel,
+             std::optional<double> s_filter, std::optional<double> l_filter) {
             return with_surface(self, {file,
                                        size_x,
                                        size_y,
@@ -79,15 +79,18 @@ InvalidInput
                                        despike,
                                        rectangle_of(crop),
                                        fill,
-                                       channel});
+                                       channel,
+                                       {s_filter, l_filter}});
           },
           nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
           nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "", nb::arg("transpose") = false,
           nb::arg("pixel_size") = nb::none(), nb::arg("lateral_unit") = "",
           nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(), nb::arg("fill") = false,
-          nb::arg("channel") = "",
-          "The same study of the surface in `file`. The other arguments are those of "
-          ":func:`read_surface`; a few undefined points are filled even without `fill`.");
+          nb::arg("channel") = "", nb::arg("s_filter") = nb::none(),
+          nb::arg("l_filter") = nb::none(),
+          "The same study of the surface in `file`. The filters are those of "
+          ":meth:`Surface.filtered`, the other arguments those of :func:`read_surface`; a few "
+          "undefined points are filled even without `fill`.");
   m.def(
       "contact_models",
       [] {

@@ -9,12 +9,15 @@
 
 #include <salebra/base/units.hpp>
 #include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/axis.hpp>
 #include <salebra/surface/crop.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/fill.hpp>
+#include <salebra/surface/filters.hpp>
 #include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
+#include <salebra/surface/profile_parameters.hpp>
 #include <salebra/surface/spikes.hpp>
 #include <salebra/surface/summits.hpp>
 
@@ -31,6 +34,12 @@ namespace {
 BoundSurface* detrended_surface(const BoundSurface& surface, const Choice<Detrend>& method) {
   const Detrend chosen = method.value("method");
   return new_surface(unlocked([&] { return detrended(Surface(surface.surface), chosen); }));
+}
+
+BoundSurface* filtered_surface(const BoundSurface& surface, std::optional<double> s_filter,
+                               std::optional<double> l_filter) {
+  return new_surface(
+      unlocked([&] { return filtered(Surface(surface.surface), {s_filter, l_filter}); }));
 }
 
 void bind_surface_class(nb::module_& m) {
@@ -155,6 +164,37 @@ Returns
 -------
 Surface
     A new surface. Undefined points stay undefined and do not count.
+)")
+      .def(
+          "filtered", &filtered_surface, nb::arg("s_filter") = nb::none(),
+          nb::arg("l_filter") = nb::none(),
+          R"(Applies the Gaussian filters of ISO 16610-61 to the surface; subtract tilt and form first.
+
+A plane wave of length λ keeps the fraction 2^−(λc/λ)² of its amplitude, half of it at the cut-off λc. A periodic surface is continued
+periodically. At the edges of any other surface, and around undefined points, the weights are divided by their sum over the defined points
+(zero-order Gaussian regression).
+
+Parameters
+----------
+s_filter : float, optional
+    Cut-off of the S-filter, m: removes shorter waves.
+l_filter : float, optional
+    Cut-off of the L-filter, m, applied to the result of the S-filter: removes longer waves.
+
+Returns
+-------
+Surface
+    A new surface. Undefined points stay undefined.
+
+Raises
+------
+InvalidInput
+    For a cut-off shorter than two cells or longer than the surface, and unless s_filter < l_filter.
+
+Examples
+--------
+>>> heights = numpy.random.default_rng(1).normal(size=(64, 64))
+>>> rough = salebra.Surface(heights, 1e-3, 1e-3).filtered(l_filter=0.25e-3)
 )")
       .def(
           "filled",
@@ -283,6 +323,9 @@ counts as (2 sin(q dx/2)/dx)² instead of q².
       nb::arg("surface"), "Warning about a probable mistake in the unit of the heights, or None.");
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",
         "Subtracts the trend of a surface, see :meth:`Surface.detrended`.");
+  m.def("filtered", &filtered_surface, nb::arg("surface"), nb::arg("s_filter") = nb::none(),
+        nb::arg("l_filter") = nb::none(),
+        "Applies the Gaussian S- and L-filter of ISO 16610-61, see :meth:`Surface.filtered`.");
   m.def(
       "default_detrend",
       [](const BoundSurface& surface) {
@@ -362,9 +405,42 @@ void bind_areal_parameters(nb::module_& m) {
   m.def("areal_parameters",
         &of_surface<[](const Surface& surface) { return areal_parameters(surface); }>,
         nb::arg("surface"),
-        "ISO 25178-2 parameters of the surface as it is. Remove form by :meth:`Surface.detrended`; "
-        "no "
-        "S- or L-filter is applied.");
+        "ISO 25178-2 parameters of the surface as it is. Remove form by "
+        ":meth:`Surface.detrended`, and noise and waviness by :meth:`Surface.filtered`.");
+  described_class<ProfileParameters>(
+      m, "ProfileParameters",
+      "Profile parameters of ISO 21920-2, means over the profiles of a surface, with the standard "
+      "deviations between them; NaN if unknown.");
+  m.def(
+      "profile_parameters",
+      [](const BoundSurface& surface, const Choice<Axis>& axis, std::optional<double> s_filter,
+         std::optional<double> l_filter) {
+        const Axis chosen = axis.value("axis");
+        return unlocked(
+            [&] { return profile_parameters(surface.surface, chosen, {s_filter, l_filter}); });
+      },
+      nb::arg("surface"), nb::arg("axis") = "x", nb::arg("s_filter") = nb::none(),
+      nb::arg("l_filter") = nb::none(),
+      R"(The parameters Ra, Rq, Rz and Rsm of the profiles along an axis, by ISO 21920-2.
+
+Ra and Rq are taken over the whole profile, from its mean. Rz is the mean over sections of the highest minus the lowest point; with an
+L-filter the sections are as long as its cut-off, otherwise the profile is one section. Rsm is the mean spacing of the rises through the
+mean line between dales and hills that reach 10 % of Rz. Profiles with undefined points are left out.
+
+Parameters
+----------
+surface : Surface
+    Subtract its tilt first.
+axis : {"x", "y"}
+    Direction of the profiles.
+s_filter, l_filter : float, optional
+    Cut-offs, m, of Gaussian filters of each profile (ISO 16610-21). Without l_filter the parameters are those of the primary profile.
+
+Returns
+-------
+ProfileParameters
+    Means over the profiles, and standard deviations between them.
+)");
 }
 
 }  // namespace

@@ -25,8 +25,10 @@
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
+#include <salebra/surface/filters.hpp>
 #include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/profile_parameters.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/twin.hpp>
@@ -52,7 +54,8 @@ const Column* entry_of(std::string_view name) {
       RegimePoint, Slider, SliderMotion, SliderStability, SliderThresholds, OscillatorDecay,
       FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping,
       Anisotropy, NonGaussianSurface, Conductances, ContactDistributions, FlowFactors,
-      AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay, TwinDraw>(name);
+      AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay, TwinDraw, ProfileParameters,
+      GaussianFilters>(name);
 }
 
 }  // namespace

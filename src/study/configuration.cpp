@@ -501,7 +501,13 @@ StudyConfiguration parse(const std::string& text, const std::string& name,
   if (ensemble) read_ensemble(*ensemble, configuration);
   if (auto surface = root.table("surface")) {
     if (surface->has("file")) {
-      configuration.surfaces = detail::read_measured(*surface, folder);
+      MeasuredSurface measured = detail::read_measured(*surface, folder);
+      for (const auto& [key, cutoff] : {std::pair{"s_filter", &measured.filters.s_filter},
+                                        {"l_filter", &measured.filters.l_filter}}) {
+        *cutoff = surface->quantity(key, Dimension::length);
+        if (*cutoff) check_positive(*surface, key, **cutoff);
+      }
+      configuration.surfaces = std::move(measured);
     } else {
       configuration.surfaces = read_generated(*surface, configuration.ensemble, folder, twin);
     }

@@ -39,7 +39,8 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
     bytes += bytes_of(checksum_of(measured.file), checksum_of(sidecar_of(measured.file)),
                       measured.size_x, measured.size_y, measured.detrend, measured.height_unit,
                       measured.transpose, measured.pixel_size, measured.lateral_unit,
-                      measured.despike, measured.crop, measured.fill, measured.channel);
+                      measured.despike, measured.crop, measured.fill, measured.channel,
+                      measured.filters.s_filter, measured.filters.l_filter);
   }
   // The last two entries say whether the surface is the only one, and whether it is the first. A
   // study of one surface drops uncertain losses, and the first of several surfaces computes the

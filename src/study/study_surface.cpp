@@ -49,7 +49,7 @@ Surface measured_surface(const MeasuredSurface& recipe, const Communicator& comm
   Surface surface = read_surface(recipe.file, options, communicator);
   collectively(communicator, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
-  return detrended(std::move(surface), trend);
+  return filtered(detrended(std::move(surface), trend), recipe.filters);
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,

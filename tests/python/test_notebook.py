@@ -111,6 +111,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "Assumptions": lambda: salebra.assumptions_of(law, DRAG, indentation=1e-6),
         "PressureWindow": lambda: salebra.fit_exponential(curve, (1e5, 5e6)).window,
         "ProfilePsd": lambda: salebra.profile_psd(surface),
+        "ProfileParameters": lambda: salebra.profile_parameters(surface),
         "PronySeries": lambda: prony,
         "PunchStiffness": lambda: salebra.punch_stiffness(contact, surface.grid, MATERIAL),
         "RadialSpectrum": lambda: salebra.radial_spectrum(psd),

@@ -126,6 +126,30 @@ def test_a_plane_is_subtracted_and_undefined_points_are_kept() -> None:
         flat.detrended("plan")
 
 
+def test_a_wave_of_the_cut_off_keeps_half_of_its_amplitude() -> None:
+    x = np.arange(128) / 128
+    heights = np.sin(2 * np.pi * 4 * x)[:, None] * np.ones(16)
+    wave = salebra.Surface(heights, 1.0, 1.0, periodic=True)
+    # Round-off of the transforms.
+    np.testing.assert_allclose(wave.filtered(s_filter=0.25).heights, heights / 2, atol=1e-14)
+    np.testing.assert_allclose(salebra.filtered(wave, l_filter=0.25).heights, heights / 2, atol=1e-14)
+    with pytest.raises(salebra.InvalidInput, match="l_filter"):
+        wave.filtered(l_filter=2.0)
+
+
+def test_profiles_of_a_sine_have_its_parameters() -> None:
+    x = np.arange(1000) / 1000
+    surface = salebra.Surface(np.sin(2 * np.pi * (10 * x + 0.01))[:, None] * np.array([1.0, 3.0]), 1.0, 1.0)
+    along = salebra.profile_parameters(surface, "x")
+    # Sums over 100 points per wave differ from integrals by (2π/100)²/12.
+    assert along.Ra == pytest.approx(2 * 2 / np.pi, rel=5e-4)
+    assert along.Rz == pytest.approx(4, rel=5e-4)
+    assert along.Rsm == pytest.approx(0.1, rel=1e-6)
+    assert along.Ra_deviation == pytest.approx(2 / np.pi * 2**0.5, rel=5e-4)
+    assert (along.profiles, along.sections) == (2, 1)
+    assert salebra.profile_parameters(surface, "x", l_filter=0.2).sections == 5
+
+
 def test_a_file_keeps_heights_size_and_period(tmp_path: Path, surface: salebra.Surface) -> None:
     for name in ("s.h5", "s.npy"):
         salebra.write_surface(tmp_path / name, surface)

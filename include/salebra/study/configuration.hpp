@@ -18,6 +18,7 @@
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
+#include <salebra/surface/filters.hpp>
 #include <salebra/surface/twin.hpp>
 #include <span>
 #include <string>
@@ -133,6 +134,7 @@ struct MeasuredSurface {
   std::optional<Rectangle> crop = {};
   bool fill = false;
   std::string channel = {};
+  GaussianFilters filters = {};  ///< applied last, after the trend is removed
 
   /// Returns the options for read_surface().
   ReadOptions reading() const;
@@ -141,7 +143,7 @@ struct MeasuredSurface {
 constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
   using S = MeasuredSurface;
   keep(visit, &S::file, &S::size_x, &S::size_y, &S::detrend, &S::height_unit, &S::transpose,
-       &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill, &S::channel);
+       &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill, &S::channel, &S::filters);
 }
 
 /// Surface parameters to vary. A parameter whose list is empty keeps its value in the table

@@ -7,7 +7,7 @@
 namespace salebra {
 
 /// Areal parameters with the names and definitions of ISO 25178-2, computed from the surface as
-/// given: no S- or L-filter is applied; use detrended() to remove form. Means are taken over the
+/// given: use detrended() to remove form, and filtered() to remove noise and waviness. Means are taken over the
 /// defined points, and heights h are measured from the mean height.
 struct ArealParameters {
   double Sa = 0;   ///< ⟨|h|⟩, m
