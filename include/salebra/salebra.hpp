@@ -14,6 +14,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/roughness_law.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
