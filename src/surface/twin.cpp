@@ -608,8 +608,19 @@ class TwinRun {
   void find_heights() {
     const Candidate& best = forms_.best;
     if (best.model.law().table() ||
-        !sees(best, TwinLaw::rolloff, best.model.highest()[TwinLaw::rolloff] - 1e-3))
+        !sees(best, TwinLaw::rolloff, best.model.highest()[TwinLaw::rolloff] - 1e-3)) {
+      for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
+        const std::vector<double>& moments = scans_[scan].height_moments;
+        const double skewness = moments.empty() ? 0 : moments[1] / std::pow(moments[0], 1.5);
+        if (!(std::abs(skewness) > 1)) continue;
+        note(
+            "the scans do not show the roll-off, so that the skewness of the surface is unknown; "
+            "its heights count as Gaussian, although those of a scan have the skewness " +
+            format_quantity(skewness, Dimension::dimensionless, 2));
+        break;
+      }
       return;
+    }
     TwinDraw law = spectrum_of(best.model, best.fit.parameters);
     stretch(law, found_.lay.stretch);
     heights_ = heights_of(scans_, left_out_, tabulated(law, 2 * pi / (20 * law.rolloff)),

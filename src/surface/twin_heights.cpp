@@ -351,12 +351,17 @@ FoundHeights heights_of(const std::vector<ScanSpectrum>& scans, const std::vecto
     slopes = slopes_at(groups, found.best, at.mean, seed);
     if (there) break;
   }
+  // Johnson's transform of a field of the same spectrum is only one of those that surfaces have.
+  constexpr double model_error = 0.04;
   for (Index draw = 0; draw < draws; ++draw) {
+    const double factor =
+        1 + model_error * gaussian_pair(seed, static_cast<std::int32_t>(draw), 0, 130).first;
     const Moments& sample = at.samples[static_cast<std::size_t>(draw % resamples)];
     const HeightShape error =
         slopes.solve(sample.third - at.mean.third, sample.fourth - at.mean.fourth);
     found.draws.push_back(
-        possible({found.best.skewness - error.skewness, found.best.kurtosis - error.kurtosis}));
+        possible({factor * (found.best.skewness - error.skewness),
+                  3 + factor * factor * (found.best.kurtosis - error.kurtosis - 3)}));
   }
   return found;
 }

@@ -197,7 +197,7 @@ class LaySearch {
     const double error = end.error() * scatter(at_end), log_stretch = std::log(lay.stretch);
     const bool significant =
         directed && log_stretch > significant_length * error && log_stretch > least_log_stretch;
-    refuse_differing_scans(ellipse, at_end);
+    refuse_differing_scans(at_end);
     refuse_other_spectra(significant ? ellipse : Ellipse{});
     if (directed && end.error() > 0.3)
       refuse(
@@ -462,6 +462,7 @@ class LaySearch {
 
   static std::string in_words(const Ellipse& ellipse) {
     const Lay lay = ellipse.lay();
+    if (lay.stretch < 1.1) return "none";
     return fmt::format("{:.2g} to 1 at {:.0f}°", lay.stretch,
                        std::fmod(std::round(lay.angle * 180 / pi), 180.0));
   }
@@ -485,7 +486,7 @@ class LaySearch {
                       in_words(solved(maps_))));
   }
 
-  void refuse_differing_scans(const Ellipse& ellipse, const std::vector<ScanEstimates>& all) const;
+  void refuse_differing_scans(const std::vector<ScanEstimates>& all) const;
   void refuse_trend(const std::vector<ScanEstimates>& all) const;
   void refuse_crossing() const;
 
@@ -495,28 +496,32 @@ class LaySearch {
   FoundLay found_;
 };
 
-void LaySearch::refuse_differing_scans(const Ellipse& ellipse,
-                                       const std::vector<ScanEstimates>& all) const {
-  const Estimate mean = sum_of(all);
-  for (std::size_t k = 0; k < maps_.size() && maps_.size() > 1; ++k) {
-    const Estimate one = all[k].sum();
-    const double off = std::hypot(one.delta - mean.delta, one.eta - mean.eta);
-    if (one.weight == 0 || off < std::max(most_difference, clearly * one.error())) continue;
+void LaySearch::refuse_differing_scans(const std::vector<ScanEstimates>& all) const {
+  for (std::size_t k = 0; k < maps_.size(); ++k) {
+    // The mean difference from the other scans at the same wavelengths.
+    Estimate mean;
+    for (std::size_t ring = 0; ring < all[k].rings.size(); ++ring) {
+      const Estimate& own = all[k].rings[ring];
+      const double q = all[k].wavenumber[ring];
+      Estimate others;
+      for (std::size_t other = 0; other < maps_.size(); ++other)
+        if (other != k) others.add(all[other].sum(q / 1.1, q * 1.1));
+      if (own.weight == 0 || others.weight == 0) continue;
+      Estimate difference;
+      difference.delta = own.delta - others.delta;
+      difference.eta = own.eta - others.eta;
+      difference.weight = 1 / (1 / own.weight + 1 / others.weight);
+      mean.add(difference);
+    }
+    if (mean.weight == 0 || mean.length() < std::max(most_difference, clearly * mean.error()))
+      continue;
     std::vector<Map> others = maps_;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const Ellipse own = solved({maps_[k]}), rest = solved(others);
-    const Lay a = own.lay(), b = rest.lay();
-    const double turned = std::abs(std::remainder(a.angle - b.angle, pi));
-    // Another stretch may belong to the wavelengths of the scan.
-    if (std::abs(std::log(a.stretch / b.stretch)) > 0.5 || turned < pi / 18 ||
-        own.distance(rest) < most_difference)
-      continue;
     refuse(
-        fmt::format("have different lays: that of {} is {}, that of the others {}; was it mounted "
-                    "turned? Leave it out or turn it",
-                    name(maps_[k].number), in_words(own), in_words(rest)));
+        fmt::format("have different lays at the same wavelengths: that of {} is {}, that of the "
+                    "others {}; leave it out, or turn it if it was mounted turned",
+                    name(maps_[k].number), in_words(solved({maps_[k]})), in_words(solved(others))));
   }
-  (void)ellipse;
 }
 
 void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
@@ -554,7 +559,7 @@ void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
   const Ellipse of_long = solved(maps_, first->from, first->to),
                 of_short = solved(maps_, second->from, second->to);
   const auto at = [](const Band& band) {
-    return format_quantity(2 * pi / std::sqrt(band.from * band.to), Dimension::length, 2);
+    return format_quantity(2 * pi / std::sqrt(band.from * band.to), Dimension::length, 3);
   };
   refuse(
       fmt::format("have a lay that depends on the wavelength, {} at {} and {} at {}: two "

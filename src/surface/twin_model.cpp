@@ -113,8 +113,8 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
       const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
       // Of skew heights, the bins beyond it contain sums of shorter and longer waves, which say
       // little about it.
-      const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 1.5;
-      const double s = sums                         ? 10 * beyond_cutoff
+      const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 1.4;
+      const double s = sums                         ? 4 * beyond_cutoff
                        : edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
                        : q > 0.8 * cutoff           ? beyond_cutoff
                                                     : everywhere;
