@@ -56,7 +56,12 @@ std::string twin_text(const SurfaceTwin& twin) {
                     row_of("rolloff", twin.rolloff, Dimension::length),
                     row_of("short_cutoff", twin.short_cutoff, Dimension::length),
                     row_of("rms_height", twin.rms_height, Dimension::length),
-                    row_of("rms_slope", twin.rms_slope, Dimension::dimensionless)},
+                    row_of("rms_slope", twin.rms_slope, Dimension::dimensionless),
+                    row_of("stretch", twin.stretch, Dimension::dimensionless),
+                    row_of("lay_angle", twin.lay_angle, Dimension::angle),
+                    row_of("rolloff_along", twin.rolloff_along, Dimension::length),
+                    row_of("skewness", twin.skewness, Dimension::dimensionless),
+                    row_of("kurtosis", twin.kurtosis, Dimension::dimensionless)},
                    2, true);
   text +=
       fmt::format("\nFit: deviance {:.2g} times the expected one; a law is rejected above {:g}\n",

@@ -127,7 +127,8 @@ template <class ShapeOf>
 double gamma_of(const ShapeOf& shape, double skewness, double delta, double direction) {
   if (skewness == 0) return 0;
   double reach = 1;
-  while (shape(direction * reach, delta).skewness < skewness && reach < 64) reach *= 2;
+  // Near the lognormal curve γ is large.
+  while (shape(direction * reach, delta).skewness < skewness && reach < 4096) reach *= 2;
   return direction * root_of(
                          [&](double magnitude) {
                            return shape(direction * magnitude, delta).skewness - skewness;

@@ -112,7 +112,7 @@ void bind_fit(nb::module_& m) {
           },
           nb::arg("wavenumber"),
           nb::sig("def density(self, wavenumber: numpy.typing.ArrayLike) -> typing.Any"),
-          "C, m⁴, at wave numbers > 0, rad/m.")
+          "C, m⁴, at wave numbers > 0, rad/m, across the lay.")
       .def(
           "tabulated",
           [](const TwinDraw& self, double lowest, int points_per_decade) {
@@ -120,7 +120,9 @@ void bind_fit(nb::module_& m) {
             return TabulatedSpectrum(table.wavenumber, table.psd);
           },
           nb::arg("lowest"), nb::arg("points_per_decade") = 60,
-          "The spectrum from `lowest`, rad/m, to its end, for :func:`filtered_noise` on a grid. "
+          "The spectrum across the lay from `lowest`, rad/m, to its end, for "
+          ":func:`filtered_noise` on a "
+          "grid. "
           "π/size, "
           "half of the smallest wave number of the grid, is low enough.");
   described_class<TwinParameter>(
@@ -140,7 +142,7 @@ void bind_fit(nb::module_& m) {
   described_class<TwinWithout>(m, "TwinWithout", "The fit without one instrument.");
   described_class<BoundTwin>(
       m, "SurfaceTwin",
-      R"(One isotropic surface estimated from several scans by several instruments.
+      R"(One surface, with its lay and the skewness of its heights, estimated from several scans by several instruments.
 
 ``SurfaceTwin(measurements).fit()`` does the same as `salebra twin`, with the same names; before fit() the numbers are NaN.
 
@@ -206,7 +208,7 @@ leave_one_out : bool
 Raises
 ------
 InvalidInput
-    Without scans, or with fewer than 8 usable bins.
+    Without scans, with fewer than 8 usable bins, or for two lays, or a lay that depends on the wavelength.
 )")
       .def(
           "draw", [](const BoundTwin& self, std::uint64_t seed) { return self.draw(seed); },

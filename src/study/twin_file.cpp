@@ -11,7 +11,6 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/study/twin_file.hpp>
-#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "io/input_file.hpp"
@@ -70,7 +69,12 @@ constexpr std::pair<const char*, TwinParameter SurfaceTwin::*> parameters[] = {
     {"rolloff", &SurfaceTwin::rolloff},
     {"short_cutoff", &SurfaceTwin::short_cutoff},
     {"rms_height", &SurfaceTwin::rms_height},
-    {"rms_slope", &SurfaceTwin::rms_slope}};
+    {"rms_slope", &SurfaceTwin::rms_slope},
+    {"stretch", &SurfaceTwin::stretch},
+    {"lay_angle", &SurfaceTwin::lay_angle},
+    {"rolloff_along", &SurfaceTwin::rolloff_along},
+    {"skewness", &SurfaceTwin::skewness},
+    {"kurtosis", &SurfaceTwin::kurtosis}};
 
 constexpr std::pair<const char*, double TwinDraw::*> numbers_of_draw[] = {
     {"hurst", &TwinDraw::hurst},
@@ -139,15 +143,6 @@ std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measure
   for (const TwinMeasurement& one : measurements) {
     const Surface surface = measured_surface(one.surface, {}, warnings);
     const std::string name = one.surface.file.filename().string();
-    if (warnings && surface.grid.ny > 1)
-      for (const std::string& warning : warnings_of_lay(
-               surface_lay(surface), significant_skewness(surface),
-               "the twin is isotropic, so that its Hurst exponent, roll-off and cut-off are "
-               "mixtures "
-               "of the values along and across the lay, and their intervals do not hold",
-               "the twin has Gaussian heights, so that its contact area and gap are not those of "
-               "the surface"))
-        warnings->push_back(name + ": " + warning);
     scans.push_back(scan_spectrum(surface.heights, surface.grid, one.instrument, one.weight, name));
     const auto done = static_cast<double>(scans.size());
     if (progress && !progress({"scans", done / static_cast<double>(measurements.size()),

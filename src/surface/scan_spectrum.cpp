@@ -37,12 +37,29 @@ std::size_t response_bins(const std::vector<double>& limits) {
          1;
 }
 
-ScanModes::ScanModes(const Grid2D& grid)
+Index tapered_modes(Index points, double step) {
+  return std::min(static_cast<Index>(max_tapered_mode / step), (points - 1) / 2);
+}
+
+Lay::Vector Lay::elliptic(double x, double y) const {
+  const double c = std::cos(angle), s = std::sin(angle), root = std::sqrt(stretch);
+  return {(c * y - s * x) / root, (c * x + s * y) * root};
+}
+
+ScanModes::ScanModes(const Grid2D& grid, const Lay& lay)
     : side(grid.ny == 1 ? grid.lx : std::sqrt(grid.lx * grid.ly)),
       step_x(side / grid.lx),
       step_y(grid.ny == 1 ? 0 : side / grid.ly),
       nyquist(static_cast<double>(grid.nx) * step_x / 2) {
   if (grid.ny > 1) nyquist = std::min(nyquist, static_cast<double>(grid.ny) * step_y / 2);
+  if (lay.stretch == 1) return;
+  // The half width along x of the ellipse |u| = 1.
+  const double c = std::pow(std::cos(lay.angle), 2), s = std::pow(std::sin(lay.angle), 2);
+  const auto width = [&](double along, double across) {
+    return std::sqrt(along / lay.stretch + across * lay.stretch);
+  };
+  nyquist = std::min(static_cast<double>(grid.nx) * step_x / 2 / width(c, s),
+                     static_cast<double>(grid.ny) * step_y / 2 / width(s, c));
 }
 
 double ScanModes::wavenumber(double kappa) const { return 2 * pi * kappa / side; }
@@ -128,9 +145,9 @@ struct BinSums {
 };
 
 /// Adds to the bins from `first` on the power of the modes of the heights under Hann's taper, times
-/// `scale`.
+/// `scale`, and lists the powers of all modes of a map.
 void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size_t first,
-              double scale, BinSums& sums) {
+              double scale, BinSums& sums, std::vector<double>& powers) {
   const Index nx = level.rows(), ny = level.cols(), columns = ny / 2 + 1;
   const std::vector<double> wx = hann_taper(nx), wy = ny == 1 ? std::vector{1.0} : hann_taper(ny);
   const Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>> along_y(wy.data(), ny);
@@ -141,6 +158,9 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
   const auto buffer = large_array<std::complex<double>>(static_cast<std::size_t>(nx) *
                                                         static_cast<std::size_t>(columns));
   transform.forward(tapered.data(), buffer.get());
+  if (ny > 1)
+    for (Index k = 0; k < nx * columns; ++k)
+      powers.push_back(scale * std::norm(buffer[static_cast<std::size_t>(k)]));
   for (Index i = 0; i < nx; ++i) {
     const Index k = 2 * i <= nx ? i : i - nx;
     if (drifts && std::abs(k) <= drift_modes) continue;
@@ -160,14 +180,17 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
 }
 
 /// Adds to the bins before `last` the power of the modes of the heights, averaged over products of
-/// two sine tapers along each axis. Only a few modes are needed, so sums along the axes cost less
-/// than Fourier transforms.
+/// two sine tapers along each axis, and lists the powers of the modes of a map that may be in such a
+/// bin if the bins are elliptic. Only a few modes are needed, so sums along the axes cost less than
+/// Fourier transforms.
 void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::size_t last,
-                 double scale, BinSums& sums) {
+                 double scale, BinSums& sums, std::vector<double>& powers) {
   const Index nx = level.rows(), ny = level.cols();
-  const double highest = sums.limits[last];
-  const auto count_x = static_cast<Index>(highest / modes.step_x);
-  const auto count_y = modes.step_y > 0 ? static_cast<Index>(highest / modes.step_y) : 0;
+  const bool map = ny > 1;
+  const Index count_x =
+      map ? tapered_modes(nx, modes.step_x) : static_cast<Index>(sums.limits[last] / modes.step_x);
+  const Index count_y = map ? tapered_modes(ny, modes.step_y) : 0;
+  if (map) powers.assign(static_cast<std::size_t>((2 * count_x + 1) * (count_y + 1)), 0.0);
   // For each point of an axis, its taper times cos and −sin of the modes k = 0 … count, for both
   // tapers.
   const auto waves = [](Index n, Index count) {
@@ -205,8 +228,6 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
           const double x = static_cast<double>(k) * modes.step_x,
                        y = static_cast<double>(j) * modes.step_y, square = x * x + y * y;
           if (square < sums.limits[0] * sums.limits[0]) continue;
-          const std::size_t bin = sums.bin_of(square, 0);
-          if (bin >= last) continue;
           const Index at_x = 2 * (t * (count_x + 1) + k),
                       at = line ? 0 : 2 * (u * (count_y + 1) + j);
           // The product (a + ib)(c + id) of the waves along x and y, and the one with −b, give both
@@ -218,6 +239,15 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
           // The modes (k, j), (−k, j) and their conjugates; if k or j is 0, (−k, j) is the
           // conjugate of (k, j) or equal to it.
           const double pairs = k > 0 && j > 0 ? 2 : 1, of_pair = 2.0 / (2.0 * tapers_y);
+          if (map) {
+            const auto place = [&](Index of_x) {
+              return static_cast<std::size_t>((count_x + of_x) * (count_y + 1) + j);
+            };
+            powers[place(k)] += scale * of_pair / 2 * plus;
+            if (k > 0) powers[place(-k)] += scale * of_pair / 2 * minus;
+          }
+          const std::size_t bin = sums.bin_of(square, 0);
+          if (bin >= last) continue;
           sums.power[bin] += scale * of_pair * (pairs == 2 ? plus + minus : plus);
           sums.modes[bin] += pairs * of_pair;
         }
@@ -276,10 +306,11 @@ ScanSpectrum spectrum_of(const Field& heights, const Grid2D& grid, const ScanIns
   const double points = static_cast<double>(grid.points());
   const double scale =
       (line ? grid.lx / (2 * pi) : grid.area() / (4 * pi * pi)) / (points * points);
-  add_tapered(level, modes, drifts, tapered, scale, sums);
-  add_hann(level, modes, drifts, tapered, scale, sums);
+  std::vector<double> tapered_powers, hann_powers;
+  add_tapered(level, modes, drifts, tapered, scale, sums, tapered_powers);
+  add_hann(level, modes, drifts, tapered, scale, sums, hann_powers);
 
-  ScanSpectrum spectrum{instrument, grid, weight, std::move(name), {}, {}, {}, {}};
+  ScanSpectrum spectrum{instrument, grid, weight, std::move(name), {}, {}, {}, {}, {}, {}, {}};
   for (std::size_t bin = 0; bin < sums.power.size(); ++bin) {
     spectrum.wavenumber.push_back(
         modes.wavenumber(std::sqrt(sums.limits[bin] * sums.limits[bin + 1])));
@@ -287,6 +318,9 @@ ScanSpectrum spectrum_of(const Field& heights, const Grid2D& grid, const ScanIns
     spectrum.modes.push_back(static_cast<Index>(std::lround(sums.modes[bin])));
   }
   spectrum.bands = height_bands(level, line ? grid.dx() : std::sqrt(grid.cell_area()));
+  spectrum.tapered_powers = std::move(tapered_powers);
+  spectrum.hann_powers = std::move(hann_powers);
+  for (const int power : {2, 3, 4}) spectrum.height_moments.push_back(level.pow(power).mean());
   return spectrum;
 }
 

@@ -14,6 +14,8 @@
 #include "base/random.hpp"
 #include "base/special_values.hpp"
 #include "surface/twin_fit.hpp"
+#include "surface/twin_heights.hpp"
+#include "surface/twin_lay.hpp"
 
 namespace salebra {
 namespace twin_detail {
@@ -113,8 +115,10 @@ Forms forms_of(const std::vector<TwinData>& data, const std::optional<SpectrumFo
   return {std::move(corner), std::move(smooth), -ratio};
 }
 
+/// Compares each scan with the fit of all, and leaves out those that are farther from it than
+/// `tolerance` times what happens to Gaussian surfaces.
 std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const Candidate& one,
-                                   std::vector<bool>& left_out) {
+                                   double tolerance, std::vector<bool>& left_out) {
   std::vector<TwinScan> judged;
   for (std::size_t scan = 0; scan < scans.size(); ++scan)
     judged.push_back({scans[scan].name, unknown, unknown, left_out[scan]});
@@ -133,14 +137,14 @@ std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const
       judged[scan].misfit = misfit.ratio();
       judged[scan].gain = misfit.gain;
       misfits.push_back(misfit.ratio());
-      far.push_back(std::abs(std::log(misfit.gain)) > std::numbers::ln2);
+      far.push_back(std::abs(std::log(misfit.gain)) > tolerance * std::numbers::ln2);
     }
     std::vector<double> sorted = misfits;
     std::ranges::sort(sorted);
     const double middle = sorted[(sorted.size() - 1) / 2];
     for (std::size_t k = 0; k < data.scans.size(); ++k)
-      if (data.scans.size() >= 3 &&
-          (far[k] || (misfits[k] > bad_scan_above && misfits[k] > bad_scan_above * middle)))
+      if (data.scans.size() >= 3 && (far[k] || (misfits[k] > tolerance * bad_scan_above &&
+                                                misfits[k] > tolerance * bad_scan_above * middle)))
         left_out[data.scans[k]] = true;
   }
   return judged;
@@ -447,28 +451,39 @@ std::string length_text(double value) { return format_quantity(value, Dimension:
 /// Builds a surface twin from scans, stage by stage.
 class TwinRun {
  public:
-  TwinRun(const std::vector<ScanSpectrum>& scans, const TwinOptions& options)
+  /// scans: with bins that are elliptic if a lay is found.
+  TwinRun(const std::vector<ScanSpectrum>& scans, const TwinOptions& options, FoundLay found)
       : scans_(scans),
         options_(options),
-        left_out_(scans.size(), false),
+        found_(std::move(found)),
+        left_out_(found_.left_out),
         forms_(forms_of(data_of_all(), options.form)) {}
 
   SurfaceTwin run() {
-    judge();
+    for (std::string& why : found_.notes) note(std::move(why));
+    judge(1);
+    find_heights();
+    name_scans_left_out();
     if (options_.leave_one_out) leave_out_each();
     replace_by_table();
     const Ends ends = ends_of(forms_.best);
     describe_fit(ends);
     draw(ends);
+    set_band(ends);
+    set_lay();
+    set_heights();
     set_parameters(ends);
     return std::move(twin_);
   }
 
  private:
   std::vector<TwinData> data_of_all() {
-    std::vector<TwinData> data = grouped(scans_, left_out_, responses_);
+    std::vector<TwinData> data = grouped(scans_, left_out_, found_.lay, responses_);
     std::size_t bins = 0;
-    for (const TwinData& group : data) bins += group.bins.size();
+    for (TwinData& group : data) {
+      bins += group.bins.size();
+      group.tail = group.tail || skew_;
+    }
     require(bins >= 8, "scans", bins,
             "bins of wavelengths are usable, which is too few; give larger scans or finer tips");
     return data;
@@ -476,31 +491,54 @@ class TwinRun {
 
   void note(std::string text) { twin_.warnings.push_back(std::move(text)); }
 
-  void judge() {
-    twin_.scans = judged_scans(scans_, forms_.best, left_out_);
-    if (!options_.drop_bad_scans || std::ranges::find(left_out_, true) == left_out_.end()) return;
+  void judge(double tolerance) {
+    twin_.scans = judged_scans(scans_, forms_.best, tolerance, left_out_);
+    if (!options_.drop_bad_scans) left_out_ = found_.left_out;
+    if (left_out_ == found_.left_out) return;
     forms_ = forms_of(data_of_all(), options_.form);
     // The remaining scans are judged anew by the fit without the bad scans.
     std::vector<bool> final = left_out_;
-    std::vector<TwinScan> judged = judged_scans(scans_, forms_.best, final);
-    for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
-      if (!left_out_[scan]) {
+    std::vector<TwinScan> judged = judged_scans(scans_, forms_.best, tolerance, final);
+    for (std::size_t scan = 0; scan < scans_.size(); ++scan)
+      if (left_out_[scan])
+        twin_.scans[scan].left_out = true;
+      else
         twin_.scans[scan] = judged[scan];
-        continue;
-      }
-      twin_.scans[scan].left_out = true;
-      note("scan " + (scans_[scan].name.empty() ? std::to_string(scan + 1) : scans_[scan].name) +
-           " is left out: its spectrum is far from that of the others");
-    }
+  }
+
+  void name_scans_left_out() {
+    for (std::size_t scan = 0; scan < scans_.size(); ++scan)
+      if (left_out_[scan] && !found_.left_out[scan])
+        note("scan " + (scans_[scan].name.empty() ? std::to_string(scan + 1) : scans_[scan].name) +
+             " is left out: its spectrum is far from that of the others");
   }
 
   void leave_out_each() {
     twin_.without = fits_without(forms_.best);
-    for (const TwinWithout& without : twin_.without)
+    for (TwinWithout& without : twin_.without) {
+      for (TwinParameter* length : {&without.rolloff, &without.short_cutoff})
+        scale(*length, across(1));
+      scale(without.rms_slope, slope_factor(found_.lay.stretch));
       if (!without.agrees)
         note("without " + without.instrument +
              " the parameters change by more than chance: the description of one instrument is "
              "wrong");
+    }
+  }
+
+  static void scale(TwinParameter& parameter, double factor) {
+    for (double* number : {&parameter.value, &parameter.low, &parameter.high}) *number *= factor;
+  }
+
+  /// The wavelength across the lay of a wavelength of elliptic waves, in which the fit is made.
+  double across(double elliptic) const {
+    return found_.lay.stretch == 1 ? elliptic : elliptic / std::sqrt(found_.lay.stretch);
+  }
+
+  /// rms slope over that of the isotropic surface with the same elliptic spectrum: the slopes across
+  /// and along the lay grow by √s and 1/√s.
+  static double slope_factor(double stretch) {
+    return stretch == 1 ? 1 : std::sqrt((stretch + 1 / stretch) / 2);
   }
 
   void replace_by_table() {
@@ -536,11 +574,12 @@ class TwinRun {
       const TwinModel::Misfit of_law = model.misfit(best.fit.parameters, group);
       twin_.chi_square += of_law.deviance;
       twin_.groups.push_back({data.instrument, static_cast<Index>(data.scans.size()),
-                              2 * pi / data.wavenumber.back(), 2 * pi / data.wavenumber.front(),
+                              across(2 * pi / data.wavenumber.back()),
+                              across(2 * pi / data.wavenumber.front()),
                               static_cast<Index>(data.bins.size()),
                               model.gain(best.fit.parameters, group), of_law.ratio()});
       if (data.tip_limit > 0)
-        note(data.instrument + ": waves below " + length_text(2 * pi / data.tip_limit) +
+        note(data.instrument + ": waves below " + length_text(across(2 * pi / data.tip_limit)) +
              " are left out, because the tip does not follow them");
     }
   }
@@ -563,6 +602,59 @@ class TwinRun {
     std::ranges::move(others, std::back_inserter(twin_.draws));
   }
 
+  /// Finds skewness and kurtosis, if the spectrum says how much of the heights the scans show. Skew
+  /// heights have waves beyond the cut-off, the sums of shorter and longer waves, so that the
+  /// spectrum is fitted once more with such a tail. Places of such a surface differ more.
+  void find_heights() {
+    const Candidate& best = forms_.best;
+    if (best.model.law().table() ||
+        !sees(best, TwinLaw::rolloff, best.model.highest()[TwinLaw::rolloff] - 1e-3)) {
+      for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
+        const std::vector<double>& moments = scans_[scan].height_moments;
+        const double skewness = moments.empty() ? 0 : moments[1] / std::pow(moments[0], 1.5);
+        if (!(std::abs(skewness) > 1)) continue;
+        note(
+            "the scans do not show the roll-off, so that the skewness of the surface is unknown; "
+            "its heights count as Gaussian, although those of a scan have the skewness " +
+            format_quantity(skewness, Dimension::dimensionless, 2));
+        break;
+      }
+      return;
+    }
+    TwinDraw law = spectrum_of(best.model, best.fit.parameters);
+    stretch(law, found_.lay.stretch);
+    heights_ = heights_of(scans_, left_out_, tabulated(law, 2 * pi / (20 * law.rolloff)),
+                          found_.lay, options_.draws, options_.seed);
+    if (heights_.gaussian) return;
+    skew_ = true;
+    left_out_ = found_.left_out;
+    forms_ = forms_of(data_of_all(), options_.form);
+    judge(2);
+  }
+
+  void set_heights() {
+    const FoundHeights& heights = heights_;
+    if (heights.draws.empty()) return;
+    const auto limits = [&](double HeightShape::*number, double gaussian) {
+      std::vector<double> values;
+      for (const HeightShape& draw : heights.draws) values.push_back(draw.*number);
+      std::ranges::sort(values);
+      TwinParameter parameter = interval(values, !heights.gaussian);
+      if (!heights.gaussian) return parameter;
+      parameter.value = gaussian;
+      parameter.low = std::min(parameter.low, gaussian);
+      parameter.high = std::max(parameter.high, gaussian);
+      return parameter;
+    };
+    twin_.skewness = limits(&HeightShape::skewness, 0);
+    twin_.kurtosis = limits(&HeightShape::kurtosis, 3);
+    if (heights.gaussian) return;
+    for (std::size_t k = 0; k < twin_.draws.size(); ++k) {
+      twin_.draws[k].skewness = heights.draws[k].skewness;
+      twin_.draws[k].kurtosis = heights.draws[k].kurtosis;
+    }
+  }
+
   std::vector<double> sorted(double TwinDraw::*number) const {
     return of_draws(twin_.draws, [number](const TwinDraw& draw) { return draw.*number; });
   }
@@ -571,15 +663,58 @@ class TwinRun {
     const TwinModel& model = forms_.best.model;
     twin_.rms_height = interval(sorted(&TwinDraw::rms_height), true);
     twin_.rms_slope = interval(sorted(&TwinDraw::rms_slope), ends.sees_cutoff());
-    const std::vector<double> cutoffs = sorted(&TwinDraw::short_cutoff);
-    set_cutoff(ends, cutoffs);
+    set_cutoff(ends, sorted(&TwinDraw::short_cutoff));
     if (model.law().table())
       set_heights_of_table();
     else
       set_rolloff(ends);
+  }
+
+  /// The spectrum across the lay, from the draws in elliptic waves.
+  void set_band(const Ends& ends) {
+    const TwinModel& model = forms_.best.model;
     double end = model.finest_wavenumber();
-    if (ends.sees_cutoff()) end = std::max(end, 2 * pi / quantile(cutoffs, 0.5));
+    if (ends.sees_cutoff())
+      end = std::max(end, 2 * pi / quantile(sorted(&TwinDraw::short_cutoff), 0.5));
     twin_.spectrum = band_of(twin_.draws, model.law(), 2 * pi / model.max_scan(), end);
+    if (found_.lay.stretch != 1)
+      for (double& q : twin_.spectrum.wavenumber) q *= std::sqrt(found_.lay.stretch);
+  }
+
+  /// Turns the law of elliptic waves into that across the lay.
+  static void stretch(TwinDraw& draw, double stretch) {
+    if (stretch == 1) return;
+    const double root = std::sqrt(stretch);
+    draw.rolloff /= root;
+    draw.short_cutoff /= root;
+    draw.reference *= root;
+    for (double& knot : draw.knots) knot *= root;
+    draw.rms_slope *= slope_factor(stretch);
+  }
+
+  /// Gives each draw a lay. In elliptic waves, whose area is that of the true ones, the lay is
+  /// independent of the law, to first order.
+  void set_lay() {
+    const Lay& lay = found_.lay;
+    if (lay.stretch == 1) {
+      twin_.stretch.value = twin_.stretch.low = 1;
+      twin_.stretch.high = found_.greatest_stretch;
+      return;
+    }
+    std::vector<double> turns;
+    for (std::size_t k = 0; k < twin_.draws.size(); ++k) {
+      TwinDraw& draw = twin_.draws[k];
+      const RandomPair normal = gaussian_pair(options_.seed, static_cast<std::int32_t>(k), 0, 114);
+      draw.stretch = std::max(1.0, lay.stretch * std::exp(found_.log_stretch_error * normal.first));
+      turns.push_back(found_.angle_error * normal.second);
+      draw.lay_angle = std::fmod(lay.angle + turns.back() + 2 * pi, pi);
+      stretch(draw, draw.stretch);
+    }
+    twin_.stretch = interval(sorted(&TwinDraw::stretch), true);
+    std::ranges::sort(turns);
+    twin_.lay_angle = interval(turns, true);
+    for (double* angle : {&twin_.lay_angle.value, &twin_.lay_angle.low, &twin_.lay_angle.high})
+      *angle += lay.angle;
   }
 
   void set_cutoff(const Ends& ends, const std::vector<double>& cutoffs) {
@@ -588,17 +723,17 @@ class TwinRun {
       return;
     }
     const TwinModel& model = forms_.best.model;
-    twin_.short_cutoff.high = std::exp(ends.cutoffs->limit(forms_.best.fit.cost, one_sided)
-                                           .value_or(ends.cutoffs->values.front()));
+    twin_.short_cutoff.high = across(std::exp(ends.cutoffs->limit(forms_.best.fit.cost, one_sided)
+                                                  .value_or(ends.cutoffs->values.front())));
     note("the scans do not resolve the short cut-off: it lies below " +
          length_text(twin_.short_cutoff.high) +
          "; the upper limit of the rms slope follows from its prior, from " +
-         length_text(std::exp(model.lowest()[model.law().cutoff()])) + " on");
+         length_text(across(std::exp(model.lowest()[model.law().cutoff()]))) + " on");
   }
 
   void set_heights_of_table() {
     note("rms height and slope include only waves below " +
-         length_text(forms_.best.model.max_scan()));
+         length_text(across(forms_.best.model.max_scan())));
     if (plateau_) return;
     twin_.rms_height = {};
     twin_.rms_height.low = quantile(sorted(&TwinDraw::rms_height), 0.05);
@@ -609,10 +744,13 @@ class TwinRun {
     twin_.hurst = interval(sorted(&TwinDraw::hurst), true);
     if (ends.sees_rolloff()) {
       twin_.rolloff = interval(sorted(&TwinDraw::rolloff), true);
+      twin_.rolloff_along = interval(
+          of_draws(twin_.draws, [](const TwinDraw& draw) { return draw.rolloff_along(); }), true);
       return;
     }
-    twin_.rolloff.low = std::exp(ends.rolloffs->limit(forms_.best.fit.cost, one_sided)
-                                     .value_or(ends.rolloffs->values.front()));
+    twin_.rolloff.low = across(std::exp(ends.rolloffs->limit(forms_.best.fit.cost, one_sided)
+                                            .value_or(ends.rolloffs->values.front())));
+    twin_.rolloff_along.low = found_.lay.stretch * twin_.rolloff.low;
     twin_.rms_height = {};
     twin_.rms_height.low = min_height(forms_.best, *ends.rolloffs);
     note("the scans do not show the roll-off: it lies beyond " + length_text(twin_.rolloff.low) +
@@ -621,6 +759,9 @@ class TwinRun {
 
   const std::vector<ScanSpectrum>& scans_;
   const TwinOptions& options_;
+  FoundLay found_;
+  FoundHeights heights_;
+  bool skew_ = false;  ///< whether the heights are not Gaussian
   std::vector<bool> left_out_;
   Responses responses_;
   Forms forms_;
@@ -631,7 +772,12 @@ class TwinRun {
 SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
   require_that(!scans.empty(), "scans", "none given; give at least one");
   require(options.draws >= 100, "draws", options.draws, "must be >= 100");
-  return TwinRun(scans, options).run();
+  FoundLay found = lay_of(scans);
+  if (found.lay.stretch == 1) return TwinRun(scans, options, std::move(found)).run();
+  std::vector<ScanSpectrum> elliptic;
+  for (const ScanSpectrum& scan : scans)
+    elliptic.push_back(scan.profile() ? scan : with_lay(scan, found.lay));
+  return TwinRun(elliptic, options, std::move(found)).run();
 }
 
 }  // namespace

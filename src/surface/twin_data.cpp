@@ -86,12 +86,13 @@ struct ScanScatter {
 /// Power that a Hann window leaks into each bin from waves more than six modes longer, which the
 /// response of the bins above κ = 36 does not include. Along an axis, a wave d modes away leaks the
 /// fraction (2/3)(1/2)(πd³)⁻² of its power, and all waves beyond d modes leak 0.007 d⁻⁵. The mean
-/// over directions is smaller than this, by a factor of fifteen beyond a sharp cut-off.
+/// over directions is smaller than this, by a factor of fifteen beyond a sharp cut-off. Elliptic
+/// modes are closest along the lay, by the root of its stretch.
 std::vector<double> leakage(const std::vector<double>& limits, const std::vector<double>& psd,
-                            const std::vector<Index>& modes) {
+                            const std::vector<Index>& modes, const Lay& lay) {
   constexpr double share = 0.007, modelled = 6;
   const auto beyond = [=](double distance) {
-    return share / std::pow(std::max(distance, +modelled), 5);
+    return share / std::pow(std::max(distance / std::sqrt(lay.stretch), +modelled), 5);
   };
   std::vector<double> leaked(psd.size());
   for (std::size_t bin = response_bins(limits); bin < psd.size(); ++bin)
@@ -116,7 +117,7 @@ TwinData of_instrument(const ScanInstrument& instrument) {
   data.blur = instrument.kind == Instrument::optical
                   ? instrument.resolution / std::sqrt(8 * std::numbers::ln2)
                   : 0;
-  data.tip = instrument.has_tip();
+  data.tip = data.tail = instrument.has_tip();
   return data;
 }
 
@@ -175,11 +176,11 @@ void set_cells(const ScanModes& modes, const Response& response, TwinData& data)
 }
 
 TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_t> members,
-                  Responses& responses) {
+                  const Lay& lay, Responses& responses) {
   const ScanSpectrum& first = scans[members.front()];
   const ScanInstrument& instrument = first.instrument;
   const bool line = first.profile();
-  const ScanModes modes(first.grid);
+  const ScanModes modes(first.grid, lay);
   const std::vector<double> limits = bin_limits(modes.nyquist);
   const std::size_t bins = limits.size() - 1, tapered = tapered_bins(limits);
 
@@ -191,14 +192,15 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
   data.mean_scans = mean.weight * mean.weight / mean.squares;
   data.scans = std::move(members);
   std::vector<double>& psd = mean.psd;
-  const std::vector<double> leaked = leakage(limits, psd, first.modes);
+  const std::vector<double> leaked = leakage(limits, psd, first.modes, lay);
   set_noise(first, leaked, psd, data);
 
-  double curvature = 0;  // κ_rms², mean square curvature
+  double curvature = 0;  // κ_rms², mean square curvature, across the lay
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const double a = modes.wavenumber(limits[bin]), b = modes.wavenumber(limits[bin + 1]);
     const double q = first.wavenumber[bin], excess = std::max(psd[bin] - data.noise, 0.0);
-    curvature += (line ? 2 * (b - a) : 3.0 / 8 * pi * (b * b - a * a)) * q * q * q * q * excess;
+    curvature += (line ? 2 * (b - a) : 3.0 / 8 * pi * (b * b - a * a)) * q * q * q * q * excess *
+                 (lay.stretch * lay.stretch);
     if (data.tip && instrument.tip_radius * std::sqrt(curvature) > tip_limit) {
       data.tip_limit = a;
       break;
@@ -221,20 +223,21 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
     data.scatter.push_back(by_tapers ? 0.35 : 0.75);
   }
 
-  set_cells(modes, responses.of(first.grid, instrument.drifts() && !line), data);
+  data.lay = lay;
+  set_cells(modes, responses.of(first.grid, instrument.drifts() && !line, lay), data);
   return data;
 }
 
 }  // namespace
 
-const Response& Responses::of(const Grid2D& grid, bool drifts) {
+const Response& Responses::of(const Grid2D& grid, bool drifts, const Lay& lay) {
   const std::tuple key(grid.nx, grid.ny, grid.ny == 1 ? 0 : grid.lx / grid.ly, drifts);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  return known_.emplace(key, response_of(grid, drifts)).first->second;
+  return known_.emplace(key, response_of(grid, drifts, lay)).first->second;
 }
 
-std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
-                              const std::vector<bool>& left_out, Responses& responses) {
+std::vector<std::vector<std::size_t>> members_of(const std::vector<ScanSpectrum>& scans,
+                                                 const std::vector<bool>& left_out) {
   std::vector<std::vector<std::size_t>> members;
   for (std::size_t scan = 0; scan < scans.size(); ++scan) {
     if (left_out[scan]) continue;
@@ -246,9 +249,15 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
     else
       group->push_back(scan);
   }
+  return members;
+}
+
+std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
+                              const std::vector<bool>& left_out, const Lay& lay,
+                              Responses& responses) {
   std::vector<TwinData> data;
-  for (std::vector<std::size_t>& group : members) {
-    TwinData one = group_of(scans, std::move(group), responses);
+  for (std::vector<std::size_t>& group : members_of(scans, left_out)) {
+    TwinData one = group_of(scans, std::move(group), lay, responses);
     if (!one.bins.empty()) data.push_back(std::move(one));
   }
   // Scans of different parts of a surface may differ by more than their calibration error, e.g. if

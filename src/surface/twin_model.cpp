@@ -53,7 +53,7 @@ TwinModel::TwinModel(const std::vector<TwinData>& data, TwinLaw law)
     const TwinData& group = data_[g];
     groups_.push_back({LawPoints(law_, group.cell_wavenumber), {}, {}, -1, -1});
     for (const double q : group.cell_wavenumber) groups_.back().square.push_back(q * q);
-    if (group.tip) groups_.back().tail = size_++;
+    if (group.tail) groups_.back().tail = size_++;
     if (group.blur > 0) groups_.back().blur = size_++;
     bins_ += static_cast<Index>(group.bins.size());
     largest_ = std::max(largest_, 2 * pi / group.wavenumber.front());
@@ -111,9 +111,13 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
       // spectrum.
       constexpr double half_bin = 1.0724;  // √1.15, half of a bin's ratio
       const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
-      const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
-                       : q > 0.8 * cutoff         ? beyond_cutoff
-                                                  : everywhere;
+      // Of skew heights, the bins beyond it contain sums of shorter and longer waves, which say
+      // little about it.
+      const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 1.4;
+      const double s = sums                         ? 4 * beyond_cutoff
+                       : edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
+                       : q > 0.8 * cutoff           ? beyond_cutoff
+                                                    : everywhere;
       const double relative = data_[g].psd_error[bin];
       groups_[g].precisions.push_back(1 / (1 / data_[g].modes[bin] + s * s + relative * relative));
     }
@@ -160,8 +164,12 @@ std::size_t TwinModel::evaluate(const Eigen::VectorXd& parameters, std::size_t g
               work.source);
   if (own.blur >= 0) {
     const double variance = data.blur * data.blur * std::exp(2 * parameters[own.blur]);
-    for (std::size_t cell = 0; cell < cells; ++cell)
-      work.source[cell] -= variance * own.square[cell];
+    if (data.lay.stretch == 1)
+      for (std::size_t cell = 0; cell < cells; ++cell)
+        work.source[cell] -= variance * own.square[cell];
+    else
+      for (std::size_t cell = 0; cell < cells; ++cell)
+        work.source[cell] += data.lay.log_blur(variance, own.square[cell]);
   }
   exponentials(work.source);
   if (cells > 0)
@@ -221,7 +229,7 @@ Eigen::MatrixXd TwinModel::slopes_of_expected(const Eigen::VectorXd& parameters,
   if (own.blur >= 0) {
     const double variance = data.blur * data.blur * std::exp(2 * parameters[own.blur]);
     for (std::size_t cell = 0; cell < cells; ++cell)
-      column[cell] = -2 * variance * own.square[cell] * work.source[cell];
+      column[cell] = 2 * data.lay.log_blur_slope(variance, own.square[cell]) * work.source[cell];
     project(law_.size());
   }
   // The cut-off wavelength changes how much of the last cell lies below the cut-off.

@@ -21,7 +21,9 @@ struct TwinData {
   double blur = 0;           ///< standard deviation of the optical blur, m
   double noise = 0;          ///< power of the noise, in the unit of psd
   double noise_freedom = 0;  ///< standard deviation of the noise parameter
+  Lay lay;
   bool tip = false;
+  bool tail = false;  ///< whether there is power beyond the cut-off: of a tip, or of skew heights
   double tip_limit = 0;       ///< bins from here on are left out for the tip, rad/m; 0: none
   double tail_reference = 0;  ///< wave number at which a tip's tail is given, rad/m
 
@@ -36,10 +38,11 @@ struct TwinData {
   std::vector<double> weights;  ///< [cell][bin used]: power of a bin per C of a cell
 };
 
-/// Keeps the responses of scans by grid, in modes, to compute each only once.
+/// Keeps the responses of scans by grid, in modes, to compute each only once; the lay is always the
+/// same.
 class Responses {
  public:
-  const Response& of(const Grid2D& grid, bool drifts);
+  const Response& of(const Grid2D& grid, bool drifts, const Lay& lay);
 
  private:
   std::map<std::tuple<Index, Index, double, bool>, Response> known_;
@@ -47,8 +50,14 @@ class Responses {
 
 /// Groups the scans that are not left out, and selects bins by their number of modes and by what a
 /// tip follows. The spectrum of a group is the weighted mean of its scans.
+/// With a lay, bins and wave numbers are elliptic.
 std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
-                              const std::vector<bool>& left_out, Responses& responses);
+                              const std::vector<bool>& left_out, const Lay& lay,
+                              Responses& responses);
+
+/// The scans of each group, without those left out.
+std::vector<std::vector<std::size_t>> members_of(const std::vector<ScanSpectrum>& scans,
+                                                 const std::vector<bool>& left_out);
 
 /// Posterior density of the parameters: those of the law; for each group ln of its gain (factor of
 /// the heights) and ln of the factor of its noise; for groups with tips ln of their tail (power

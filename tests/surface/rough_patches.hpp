@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <numbers>
 #include <random>
 #include <salebra/base/grid.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "base/fft.hpp"
@@ -25,10 +25,11 @@ class RoughPatches {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
 
-  /// n × n heights on a square of the given side; density(q) is C. Waves beyond the Nyquist wave
-  /// number are missing: for points that alias them, take every_second() of a finer patch.
-  salebra::Field patch(salebra::Index n, double side,
-                       const std::function<double(double)>& density) {
+  /// n × n heights on a square of the given side; density(q) or density(q_x, q_y) is C. Waves beyond
+  /// the Nyquist wave number are missing: for points that alias them, take every_second() of a finer
+  /// patch.
+  template <class Density>
+  salebra::Field patch(salebra::Index n, double side, const Density& density) {
     using salebra::Index;
     const Index box = 2 * n, columns = box / 2 + 1;
     const double step = std::numbers::pi / side;  // of a mode of the box
@@ -43,7 +44,8 @@ class RoughPatches {
         if (k < longest_of_box) continue;
         // Compilers evaluate function arguments in different orders.
         const double imaginary = normal(), real = normal();
-        mode = std::sqrt(density(step * k) / 2) * step * std::complex<double>(real, imaginary);
+        mode = std::sqrt(value_of(density, step * kx, step * ky, step * k) / 2) * step *
+               std::complex<double>(real, imaginary);
       }
     for (Index i = 1; i < box / 2; ++i)
       modes[static_cast<std::size_t>((box - i) * columns)] =
@@ -58,8 +60,16 @@ class RoughPatches {
  private:
   static constexpr double longest_of_box = 3;  ///< in modes of the box, 1.5 of the patch
 
-  void add_long_waves(double side, const std::function<double(double)>& density,
-                      salebra::Field& heights) {
+  template <class Density>
+  static double value_of(const Density& density, double qx, double qy, double q) {
+    if constexpr (std::is_invocable_v<Density, double, double>)
+      return density(qx, qy);
+    else
+      return density(q);
+  }
+
+  template <class Density>
+  void add_long_waves(double side, const Density& density, salebra::Field& heights) {
     using salebra::Index;
     constexpr int shells = 40, directions = 12, coarse = 96, margin = 3;
     constexpr double highest = longest_of_box / 2, lowest = 1e-4;
@@ -78,7 +88,8 @@ class RoughPatches {
         // ±q.
         const double area = std::numbers::pi * (high * high - low * low) / directions *
                             std::pow(2 * std::numbers::pi / side, 2);
-        const double amplitude = std::sqrt(density(q) * area);
+        const double amplitude =
+            std::sqrt(value_of(density, q * std::cos(angle), q * std::sin(angle), q) * area);
         const double a = amplitude * normal(), b = amplitude * normal();
         const auto wave = [&](double cycles) {
           Eigen::ArrayXcd values(points);

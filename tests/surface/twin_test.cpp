@@ -161,7 +161,7 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
   const std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
   twin_detail::Responses responses;
   const std::vector<twin_detail::TwinData> data =
-      twin_detail::grouped(scans, std::vector<bool>(scans.size(), false), responses);
+      twin_detail::grouped(scans, std::vector<bool>(scans.size(), false), {}, responses);
   for (const SpectrumForm form :
        {SpectrumForm::corner, SpectrumForm::smooth, SpectrumForm::table}) {
     twin_detail::TwinLaw own{form, 1e6, {}};
@@ -289,7 +289,7 @@ TEST_CASE("A tip is believed up to R κ_rms of 0.08", "[twin]") {
   std::vector<ScanSpectrum> scans{
       scan_of(patches, truth, 160, 20e-6, instrument(Instrument::afm, 1e-10, 1e-6))};
   twin_detail::Responses responses;
-  const auto data = twin_detail::grouped(scans, {false}, responses);
+  const auto data = twin_detail::grouped(scans, {false}, {}, responses);
   REQUIRE(data.size() == 1);
   REQUIRE(data[0].tip_limit > 0);
   CHECK(data[0].wavenumber.back() < data[0].tip_limit);
@@ -301,7 +301,7 @@ TEST_CASE("A tip is believed up to R κ_rms of 0.08", "[twin]") {
   CHECK(1e-6 * std::sqrt(square) == Approx(0.08).epsilon(0.3));
   // A ten times sharper tip reaches shorter waves.
   scans.front().instrument.tip_radius = 1e-7;
-  const auto finer = twin_detail::grouped(scans, {false}, responses);
+  const auto finer = twin_detail::grouped(scans, {false}, {}, responses);
   CHECK(finer[0].wavenumber.back() > 2 * data[0].wavenumber.back());
   const SurfaceTwin twin = quick_twin(scans);
   CHECK(twin.groups.size() == 1);
@@ -416,7 +416,7 @@ TEST_CASE("Noise eight decades below the longest waves is kept as it is", "[twin
   REQUIRE(scans[0].psd.front() > 1e8 * scans[0].psd.back());
   twin_detail::Responses responses;
   const std::vector<twin_detail::TwinData> groups =
-      twin_detail::grouped(scans, std::vector<bool>(scans.size()), responses);
+      twin_detail::grouped(scans, std::vector<bool>(scans.size()), {}, responses);
   CHECK(groups[0].noise == Approx(1e-18 * scans[0].grid.cell_area() / (4 * pi * pi)));
   for (std::size_t k = 0; k < groups[0].bins.size(); ++k) {
     const std::size_t bin = groups[0].bins[k];
@@ -436,7 +436,7 @@ TEST_CASE("Beyond a sharp end of the waves there is what the window leaks", "[tw
       scan_spectrum(patches.patch(480, 200e-6, [&](double q) { return truth.density(q); }),
                     {480, 480, 200e-6, 200e-6}, ideal);
   twin_detail::Responses responses;
-  const twin_detail::TwinData group = twin_detail::grouped({scan}, {false}, responses).front();
+  const twin_detail::TwinData group = twin_detail::grouped({scan}, {false}, {}, responses).front();
   int beyond = 0;
   for (std::size_t k = 0; k < group.bins.size(); ++k) {
     if (group.wavenumber[k] < 1.2 * 2 * pi / 2e-6) continue;

@@ -86,7 +86,8 @@ constexpr void describe(auto&& visit, std::type_identity<HeightBand>) {
   visit(&S::blocks, Kept{"blocks", "means that were taken"});
 }
 
-/// Everything that the fit of a surface twin needs from one scan: about a hundred numbers.
+/// Everything that the fit of a surface twin needs from one scan: about a hundred numbers and, for a
+/// map, the periodogram of its modes, by which the fit finds a lay.
 struct ScanSpectrum {
   ScanInstrument instrument;
   Grid2D grid;                     ///< a profile has ny = 1 and ignores ly
@@ -96,6 +97,13 @@ struct ScanSpectrum {
   std::vector<double> psd;   ///< mean periodogram in each bin: C, m⁴; for a profile C₁, m³
   std::vector<Index> modes;  ///< number of modes in each bin; 0 if drift removed all
   std::vector<HeightBand> bands;  ///< from fine to coarse
+  /// Power C, m⁴, of each mode (k_x, k_y) of a map: under the sine tapers for −K_x <= k_x <= K_x and
+  /// 0 <= k_y <= K_y, where K_x and K_y are the modes of κ = 42 along each axis; under the Hann
+  /// window for all k_x of the grid, in the order of a Fourier transform, and 0 <= k_y <= ny/2.
+  /// Empty for a profile.
+  std::vector<double> tapered_powers, hann_powers;
+  std::vector<double>
+      height_moments;  ///< means of h², h³, h⁴ of the levelled heights h, m², m³, m⁴
 
   bool profile() const { return grid.ny == 1; }
 };
@@ -111,6 +119,10 @@ constexpr void describe(auto&& visit, std::type_identity<ScanSpectrum>) {
   visit(&S::psd, Kept{"psd", "mean periodogram", length_to_the_fourth});
   visit(&S::modes, Quantity{"modes", dimensionless, "modes in the mean"});
   visit(&S::bands, Table{"bands", "heights by wavelength"});
+  visit(&S::tapered_powers, Kept{"tapered_powers", "powers of modes under sine tapers"});
+  visit(&S::hann_powers, Kept{"hann_powers", "powers of modes under the Hann window"});
+  visit(&S::height_moments,
+        Kept{"height_moments", "mean square, cube and fourth power of heights"});
   visit(&S::profile, Kept{"profile", "whether it is a line"});
 }
 
@@ -128,8 +140,8 @@ constexpr void describe(auto&& visit, std::type_identity<ScanSpectrum>) {
 /// weight    > 0; number of scans of this kind that this scan represents
 /// Throws InvalidInput unless all heights are defined, nx, ny >= 32, the longer side is at most 4
 /// times the shorter, resolution is > 0 for optical, tip_radius is > 0 for stylus and afm, and
-/// calibrations are >= 0. Cost: one FFT and a product of the heights with 52 columns; 20 bytes per
-/// point. The bits are the same for any number of threads.
+/// calibrations are >= 0. Cost: one FFT and a product of the heights with 200 columns; 20 bytes per
+/// point, of which 4 remain. The bits are the same for any number of threads.
 ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
                            const ScanInstrument& instrument, double weight = 1,
                            std::string name = {});

@@ -268,7 +268,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
   visit(&S::draws, Kept{"draws", "draws of the posterior"});
 }
 
-/// Fits one self-affine spectrum to scans at independent random positions on one isotropic surface:
+/// Fits one self-affine spectrum to scans at independent random positions on one surface:
 ///     const SurfaceTwin twin = fit_twin({optical_scan, afm_scan});
 ///     const TwinDraw& realisation = twin.draw(1);
 /// The mean periodogram of a group (scans of one instrument, size and grid) in bin b has the
@@ -288,9 +288,27 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
 /// with 0.5 (1.5 if the noise was estimated); ln σ normal with 0.05. Roll-off and cut-off count as
 /// seen if twice the log likelihood ratio (rolloff_ratio, cutoff_ratio) exceeds 6; otherwise the
 /// wavelength at which the log profile likelihood lies 1.353 below its maximum is a limit. scans
-/// must have at least one entry; scans of one group need not be adjacent in the list. Throws
-/// InvalidInput for no scan, fewer than 8 usable bins, or draws < 100. Cost: 0.1 s for the response
-/// of each kind of grid, 0.3 s for fits and draws. The bits do not depend on the number of threads.
+/// must have at least one entry; scans of one group need not be adjacent in the list.
+///
+/// Lay: with the elliptic wave number u² = q_across²/s + s·q_along², s the stretch, the spectrum is
+/// C(u). s and the angle of the lay are those at which the second harmonics of the power in
+/// elliptic rings vanish; if they differ significantly (99 %) from an isotropic surface, bins are
+/// elliptic rings, whose response is that of the ellipse, and the draws have s and angle with their
+/// errors. Otherwise the fit is the isotropic one. The surface is refused if the fourth harmonic,
+/// or a trend of the second one with the wavelength, shows two lays that cross or two processes. A
+/// scan whose lay differs from that of its group, and profiles of a surface with a lay, are left
+/// out.
+///
+/// Heights: skewness and kurtosis are those at which simulated scans, transforms of Gaussian fields
+/// of the fitted spectrum by Johnson's distribution, have the third and fourth moments of the
+/// largest scans. If Gaussian heights do not explain them (99 %), the draws have skewness and
+/// kurtosis, and the fit allows for power beyond the cut-off, of sums of waves. They are unknown if
+/// the roll-off is not seen.
+///
+/// Throws InvalidInput for no scan, fewer than 8 usable bins, draws < 100, two lays or processes,
+/// or a lay of which the grids show too little. Cost: 0.1 s for the response of each kind of grid
+/// (0.5 s with a lay), 0.3 s for fits and draws, 0.5 s for the heights. The bits do not depend on
+/// the number of threads.
 SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options = {});
 
 }  // namespace salebra
