@@ -20,11 +20,15 @@
 
 namespace salebra::cli {
 
-FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress) {
-  FlowFactors flow = flow_factors(state, grid, {.on_progress = progress});
+FlowFactors flow_of(const NormalContactState& state, const Surface& surface,
+                    const Progress& progress) {
+  const SurfaceLay lay = surface_lay(surface);
+  FlowFactors flow = flow_factors(
+      state, surface.grid,
+      {.lay_angle = lay.found() ? lay.angle : FlowFactors::unknown, .on_progress = progress});
   if (!flow.converged())
-    flow.pressure_flow_factor_x = flow.pressure_flow_factor_y = flow.effective_gap =
-        FlowFactors::unknown;
+    flow.pressure_flow_factor_x = flow.pressure_flow_factor_y = flow.pressure_flow_factor_xy =
+        flow.effective_gap = FlowFactors::unknown;
   return flow;
 }
 
@@ -66,16 +70,18 @@ NormalContactOptions ContactArguments::contact_options(Session& session) const {
 
 std::vector<std::string> warnings_of_direction(const ContactArguments& arguments,
                                                const Surface& surface) {
-  if (!arguments.wants_stiffness() || surface.undefined_points() > 0 ||
+  if (!arguments.wants_stiffness() || arguments.stick || surface.undefined_points() > 0 ||
       !std::isfinite(arguments.material.material().tangential_modulus))
     return {};
-  return warnings_of_lay(
-      surface_lay(surface), 0,
-      arguments.stick ? "the tangential stiffness is that of a motion along x; along and "
-                        "across the lay it differs"
-                      : "the tangential stiffness is (G*/E*)K, that of an isotropic surface; "
-                        "along and across the lay it differs",
-      {});
+  return warnings_of_lay(surface_lay(surface), 0,
+                         "the tangential stiffness is (G*/E*)K, that of an isotropic surface; "
+                         "along and across the lay it differs, as `stick` shows",
+                         {});
+}
+
+std::vector<double> ContactArguments::directions_on(const Surface& surface) const {
+  if (!stick) return {0};
+  return directions_of(direction_choice(direction, "--direction"), surface);
 }
 
 namespace {
@@ -144,6 +150,9 @@ void check(const ContactArguments& arguments, std::size_t points, const Session&
                "needs a surface that repeats itself; leave out --boundary free");
   require_that(arguments.wants_stiffness() || !arguments.stick, "--stick",
                "given without --stiffness; give both");
+  require_that(arguments.stick || arguments.direction == "auto", "--direction",
+               "given without --stick: (G*/E*)K has no direction; give both");
+  direction_choice(arguments.direction, "--direction");
   check_adhesion(arguments, points, session);
   if (points > 1) {
     command.require_none_of(once, fmt::format("takes one load, and {} are given", points));
@@ -224,6 +233,7 @@ void add_boundary_elements(Command& command, ContactArguments& arguments) {
       "both are null in full contact of a periodic surface, where they are infinite");
   command.add_flag("--stick", arguments.stick,
                    "with --stiffness: compute K_t by solving each contact in full stick");
+  add_direction(command, arguments.direction, "with --stick: direction of K_t");
   command.add_flag("--flow-factors", arguments.flow_factors,
                    "also compute how a fluid passes the gap: percolation, pressure flow factors "
                    "and effective gap; null where nothing flows");

@@ -29,7 +29,7 @@ namespace {
 
 struct DampingArguments {
   LawOptions law;
-  std::string amplitude = "finite", hold = "auto", trajectory;
+  std::string amplitude = "finite", hold = "auto", direction = "auto", trajectory;
   MaterialOptions material;
   MotionOptions motion;
   std::vector<double> force_amplitude;
@@ -63,7 +63,8 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
 }
 
 ContactProblem contact_of(const DampingArguments& arguments, Session& session) {
-  return arguments.law.problem(arguments.material, session, arguments.assumptions.hardness);
+  return arguments.law.problem(arguments.material, session, arguments.assumptions.hardness,
+                               arguments.direction);
 }
 
 // --trajectory: a file with one period of time, indentation and displacement.
@@ -207,12 +208,18 @@ void lose(const DampingArguments& arguments, Session& session) {
   const DampingSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.warnings);
   session.warn(answer.warnings);
-  const bool one = values.empty();
+  // Several directions make several rows, all values in one direction first.
+  const std::size_t directions = answer.results.size() / std::max<std::size_t>(1, values.size());
+  const bool one = answer.results.size() == 1;
   if (one && !answer.periods.empty() && answer.periods.front().normal_cycles == 0)
     session.inform(
         "the two frequencies have no common period: the power is a mean over a long time");
   Json object = Json::object();
-  if (!one) object[quantity] = values;
+  if (!values.empty()) {
+    Json& rows = object[quantity] = Json::array();
+    for (std::size_t k = 0; k < directions; ++k)
+      for (const double value : values) rows.push_back(value);
+  }
   object.add(answer_json(answer, answer.contact.nominal_area()));
   // Without friction the losses without slip equal the other losses, so they are left out.
   if (!arguments.assumptions.friction_coefficient)
@@ -222,7 +229,7 @@ void lose(const DampingArguments& arguments, Session& session) {
   const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
     write_tables(session, "damping", object, {});
-    if (!one && session.has_plot())
+    if (!values.empty() && session.has_plot())
       session.plot(damping_figure(quantity, values, answer.results));
     else if (!arguments.maps.given())
       plot_case(arguments, answer, session);
@@ -342,31 +349,57 @@ void damp(const DampingArguments& arguments, Session& session) {
   require(!amplitudes.empty() || !session.has_output(), "--output", session.output().string(),
           "needs a map; give --normal-amplitude and --frequency");
   problem.contact = contact_of(arguments, session);
-  const DamperSolution answer = solve(std::move(problem), session.context());
-  session.warn(answer.contact.warnings);
-  session.warn(answer.warnings);
+  const std::vector<DamperSolution> answers =
+      solve_directions(std::move(problem), session.context());
+  const DamperSolution& first = answers.front();
+  session.warn(first.contact.warnings);
+  for (const auto& [given, option] :
+       {std::pair(session.has_output(), "--output"), {session.has_plot(), "--plot"}})
+    require_that(
+        !given || answers.size() == 1, option,
+        "takes one direction, and the surface has a lay; give --direction across or along");
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;
-  for (const auto& [name, field] : fields_of(answer)) object[name] = constants(*field);
-  object.add(answer_json(answer));
+  const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
+  std::string text;
+  AssumptionReport report{.list = amplitudes.size() > 1 || answers.size() > 1};
+  std::vector<Json> objects;
+  for (const DamperSolution& answer : answers) {
+    session.warn(answer.warnings);
+    Json& one = objects.emplace_back(Json::object());
+    if (!std::isnan(answer.contact.direction())) one["direction"] = answer.contact.direction();
+    for (const auto& [name, field] : fields_of(answer)) one[name] = constants(*field);
+    one.add(answer_json(answer));
+    Json shown = object;
+    shown.add(one);
+    if (!text.empty()) text += "\n";
+    if (pairs && answers.size() > 1)
+      text += to_text(Json{{"direction", answer.contact.direction()}}) + "\n";
+    text += pairs ? text_of(shown, answer) : to_text(shown);
+    report.cases.insert(report.cases.end(), answer.assumptions.begin(), answer.assumptions.end());
+    report.slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all();
+  }
+  // Each value of several directions is a list, with one entry for each direction.
+  if (objects.size() == 1)
+    object.add(objects.front());
+  else
+    for (const auto& [name, value] : objects.front().items()) {
+      Json& list = object[name] = Json::array();
+      for (const Json& one : objects)
+        list.push_back(one.contains(name) ? one[name] : Json(nullptr));
+    }
   if (!amplitudes.empty() && session.has_output())
-    write_map(answer, arguments.body.falling_slope, session);
+    write_map(first, arguments.body.falling_slope, session);
   if (session.has_plot()) {
-    const Figure figure = damper_figure(answer, arguments.body.falling_slope, omega);
+    const Figure figure = damper_figure(first, arguments.body.falling_slope, omega);
     require_that(!figure.panels.empty(), "--plot",
                  "there is only one number to draw; give a range, --mass, or --falling-slope with "
                  "several frequencies");
     session.plot(figure);
   }
-  const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
-  const std::string text = pairs ? text_of(object, answer) : to_text(object);
-  if (answer.assumptions.empty()) return session.answer(object, text);
-  AssumptionReport{
-      .cases = answer.assumptions,
-      .list = amplitudes.size() > 1,
-      .slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all()}
-      .answer(session, object, text);
+  if (report.cases.empty()) return session.answer(object, text);
+  report.answer(session, object, text);
 }
 
 /// The loss of each of several surfaces at the same pressures.
@@ -460,6 +493,9 @@ void add_damping_command(Program& program) {
                    "which mean value the oscillation keeps; default auto: the indentation, or the "
                    "force once the contact lifts off under a given load")
       ->group(normal);
+  add_direction(command, arguments->direction,
+                "with --surface or --curve: direction of the tangential motion")
+      ->group("Tangential motion");
   const std::string path = "Measured motion, and steps";
   const std::string adhesion = "Adhesion, of an indenter at rest";
   add_quantity(command, "--work-of-adhesion", arguments->work_of_adhesion,

@@ -25,7 +25,7 @@ namespace salebra::cli {
 namespace {
 
 struct ExportArguments {
-  std::string result, format, units = "m,kg,s", of = "mean", name = "contact";
+  std::string result, format, units = "m,kg,s", of = "mean", name = "contact", direction = "auto";
   LawOptions law;
   MaterialOptions material;
   Conduction conduction;
@@ -75,6 +75,18 @@ bool complete_forces(const ForceCurve& curve) {
                               [](double force) { return std::isnan(force); });
 }
 
+/// Says in the deck which direction K_t of the curve has, if it has one.
+void add_direction_comment(const ForceCurve& curve, const std::string& direction,
+                           DeckProblem& problem) {
+  const DirectionChoice choice = direction_choice(direction, "--direction");
+  const double* angle = std::get_if<double>(&choice);
+  const double found = angle ? directions_of(choice, SurfaceLay{}).front() : curve.direction();
+  if (std::isnan(curve.direction())) return;
+  problem.comment += std::string(problem.comment.empty() ? "" : " ") +
+                     "The tangential stiffness is that of motion " + direction_in_words(found) +
+                     ".";
+}
+
 std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, const std::string& file,
                                           DeckProblem& problem, Session& session) {
   require_finished(file);
@@ -90,17 +102,20 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
     throw InvalidInput(
         "--" + option_word(at[1].control),
         fmt::format("given together with --{}; give one of them", option_word(at[0].control)));
+  const DirectionChoice choice = direction_choice(arguments.direction, "--direction");
   std::vector<DeckContact> contacts;
   for (ForceCurve& curve : read_force_curves(file)) {
     require_that(curve.nominal_area > 0 || arguments.law.nominal_area || complete_forces(curve),
                  "--nominal-area", "not given, but " + file + " has pressures without forces");
     const double sample_area = curve.nominal_area;
+    if (contacts.empty()) add_direction_comment(curve, arguments.direction, problem);
     if (arguments.law.nominal_area)
       curve = curve_of_part(std::move(curve), *arguments.law.nominal_area, file);
     contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
                                                  .modulus_ratio = parameters.modulus_ratio,
                                                  .at = at.empty() ? OperatingPoints{} : at.front(),
-                                                 .source = file},
+                                                 .source = file,
+                                                 .direction = choice},
                                     session.context()));
     if (sample_area > 0 && sample_area != contacts.back().nominal_area)
       contacts.back().sample_area = sample_area;
@@ -147,8 +162,11 @@ void run(const ExportArguments& arguments, Session& session) {
     require_that(!law.indenter.law.empty() || law.surface.given() || law.of_roughness(), "RESULT",
                  "not given; name a file of contact or study, or give --law, --surface or "
                  "--rms-height");
-    problem.contacts = {
-        deck_contact(law.problem(arguments.material, session, {}), session.context())};
+    problem.contacts = {deck_contact(
+        law.problem(
+            arguments.material, session, {},
+            law.surface.given() && arguments.direction == "auto" ? "0deg" : arguments.direction),
+        session.context())};
     problem.source = law.surface.given()  ? law.surface.file
                      : law.of_roughness() ? "roughness of the sides"
                                           : fmt::format("law {}", law.indenter.law);
@@ -223,6 +241,7 @@ void add_export_command(Program& program) {
       .add_option("--sliders", arguments->sliders,
                   "number of sliders, or of springs in a C header or FMU; default 200")
       ->range(2, 100000);
+  add_direction(command, arguments->direction, "direction of the tangential motion");
   command.add_option("--name", arguments->name,
                      "prefix of the names in a C header, name of an FMU; default contact");
   add_quantity(command, "--min-force", arguments->min_force, Dimension::dimensionless,

@@ -45,7 +45,8 @@ std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts
 }
 
 void run(const FitArguments& arguments, Session& session) {
-  const ForceCurve curve = read_force_curve(arguments.curve);
+  // The force over the gap is the same in all directions of the tangential motion.
+  const ForceCurve curve = by_direction(read_force_curve(arguments.curve)).front();
   std::optional<PressureWindow> window;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),

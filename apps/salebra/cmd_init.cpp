@@ -108,6 +108,7 @@ frequency = "20kHz"          # of the normal oscillation
 # tangential_amplitude = "1nm"  # amplitude of the tangential motion
 # phase = "90deg"               # phase between the two motions
 hold = "auto"                # "force" keeps the mean force, "indentation" the mean indentation; auto: force if the contact lifts off
+# direction = "across"       # of the tangential motion: across or along the lay, both, or an angle such as "30deg"; default both where there is a lay, else along x
 # amplitude = "small"        # the limit u_z -> 0, to compare with Eq. (16); default "finite"
 # relative_error = "5%"      # error allowed for each damping constant; cells are halved until it is met
 # intervals = 4              # intervals between the contacts solved inside the oscillation: 4, 8, 16 or 32; 0: solve none, take the loss from the curve between loads

@@ -35,7 +35,8 @@ struct OscillateArguments {
   MotionOptions motion;
   std::optional<int> points;
   int steps = 64, intervals = 0;
-  std::optional<double> direction, relative_error, decay_length;
+  std::string direction = "auto";
+  std::optional<double> relative_error, decay_length;
   RecordOptions record;
   FrictionOptions friction;
   AssumptionOptions assumptions;
@@ -158,10 +159,10 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
 }
 
 OscillationRoutes routes_of(const OscillateArguments& arguments, const OscillationCase& contact,
-                            const std::string& shape, const Progress& progress) {
+                            const std::string& shape, double direction, const Progress& progress) {
   OscillationRoutes routes;
   routes.intervals.intervals = arguments.intervals;
-  routes.intervals.direction = arguments.direction.value_or(0);
+  routes.intervals.direction = direction;
   routes.intervals.stick.boundary = contact.body.boundary;
   routes.intervals.stick.hold_lateral = arguments.lateral == "held";
   routes.intervals.on_progress = progress;
@@ -225,10 +226,10 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   return figure;
 }
 
-// Table with a line for each shape.
-std::string table_of(const std::vector<OscillationOutcome>& outcomes,
+// Table with a line for each shape, or for each direction of a surface.
+std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std::string& heading,
                      const std::vector<std::string>& shapes) {
-  std::vector<std::vector<std::string>> rows{{"shape", "W", "W over Eq. (12) or (15)",
+  std::vector<std::vector<std::string>> rows{{heading, "W", "W over Eq. (12) or (15)",
                                               "W over finite amplitude", "W over elastic energy"}};
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const OscillationOutcome& outcome = outcomes[k];
@@ -244,10 +245,24 @@ std::string table_of(const std::vector<OscillationOutcome>& outcomes,
   return to_table(rows, 2, true);
 }
 
-// Prints and writes the results. shapes: name of the shape of each outcome; empty for --surface.
+/// The directions of the tangential motion, rad.
+std::vector<double> directions_of_case(const OscillateArguments& arguments,
+                                       const Surface& surface) {
+  const DirectionChoice choice = direction_choice(arguments.direction, "--direction");
+  // A shape has no lay, and motion with free lateral displacement is along x.
+  const bool along_x = !arguments.shapes.empty() || arguments.lateral == "free";
+  if (along_x && choice == DirectionChoice(LayDirection::automatic)) return {0};
+  const std::vector<double> directions = directions_of(choice, surface);
+  for (const auto& [option, file] : {std::pair{"--checkpoint", &arguments.record.checkpoint},
+                                     {"--fields", &arguments.record.fields}})
+    require(file->empty() || directions.size() == 1, option, *file,
+            "takes one simulation, and the surface has a lay; give --direction across or along");
+  return directions;
+}
+
+// Prints and writes the results. shapes: name of each outcome, of its shape or its direction.
 void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArguments& arguments,
-            Session& session) {
-  const std::vector<std::string>& shapes = arguments.shapes;
+            const std::vector<std::string>& shapes, Session& session) {
   const bool single = outcomes.size() == 1;
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
@@ -272,7 +287,9 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
       all[shapes[k]] = std::move(object);
     }
   }
-  if (!single) session.answer(all, table_of(outcomes, shapes));
+  if (!single)
+    session.answer(all,
+                   table_of(outcomes, arguments.shapes.empty() ? "direction" : "shape", shapes));
   if (!std::ranges::all_of(outcomes, &OscillationOutcome::converged))
     throw NotConverged("oscillate: a normal or tangential solve did not reach its tolerance");
   for (const OscillationOutcome& outcome : outcomes) warn_of(outcome, session);
@@ -286,28 +303,36 @@ void run(const OscillateArguments& arguments, Session& session) {
       arguments.shapes.empty() ? std::vector<std::string>{""} : arguments.shapes;
   std::vector<OscillationOutcome> outcomes;
   // The elements must not move, because a recorder refers to the surface of one.
-  outcomes.reserve(shapes.size());
+  outcomes.reserve(2 * shapes.size());
+  std::vector<std::string> names;
   std::optional<CycleRecorder> recorder;
   for (const std::string& shape : shapes) {
     // Interrupting the quadrature discards its results. An interrupted cycle keeps a checkpoint.
     std::optional<detail::StopCheck> stops{interrupted};
-    OscillationCase contact = case_of(arguments, shape, session);
-    const OscillationRoutes routes = routes_of(
-        arguments, contact, shape, part_of(session.progress(), outcomes.size(), shapes.size()));
-    OscillationOutcome& outcome =
-        outcomes.emplace_back(oscillation_by_intervals(std::move(contact), routes));
-    if (arguments.method == "intervals") continue;
-    stops.reset();
-    recorder.emplace(recorder_of(arguments, outcome.run, routes.cycle, session));
-    simulate_cycles(outcome, routes, [&](const CycleOptions& cycle, const auto& simulate) {
-      return recorder->run(cycle, simulate);
-    });
-    if (outcome.interrupted())
-      throw Interrupted(arguments.record.checkpoint.empty()
-                            ? "oscillate: interrupted; nothing was written"
-                            : "oscillate: interrupted; the same command with --resume continues");
+    const OscillationCase contact = case_of(arguments, shape, session);
+    const std::vector<double> directions = directions_of_case(arguments, contact.body.surface);
+    for (const double direction : directions) {
+      if (!stops) stops.emplace(interrupted);
+      const bool across = &direction == &directions.front();
+      names.push_back(!shape.empty() ? shape : across ? "across" : "along");
+      const OscillationRoutes routes = routes_of(
+          arguments, contact, shape, direction,
+          part_of(session.progress(), outcomes.size(), shapes.size() * directions.size()));
+      OscillationOutcome& outcome =
+          outcomes.emplace_back(oscillation_by_intervals(contact, routes));
+      if (arguments.method == "intervals") continue;
+      stops.reset();
+      recorder.emplace(recorder_of(arguments, outcome.run, routes.cycle, session));
+      simulate_cycles(outcome, routes, [&](const CycleOptions& cycle, const auto& simulate) {
+        return recorder->run(cycle, simulate);
+      });
+      if (outcome.interrupted())
+        throw Interrupted(arguments.record.checkpoint.empty()
+                              ? "oscillate: interrupted; nothing was written"
+                              : "oscillate: interrupted; the same command with --resume continues");
+    }
   }
-  finish(outcomes, arguments, session);
+  finish(outcomes, arguments, names, session);
   if (recorder) recorder->done();
 }
 
@@ -342,8 +367,7 @@ void add_oscillate_command(Program& program) {
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "which mean value the oscillation keeps; default auto: the indentation, or the "
                    "force once the contact lifts off under a given load");
-  add_quantity(command, "--direction", arguments->direction, Dimension::angle,
-               "direction of the tangential motion against x; default 0");
+  add_direction(command, arguments->direction, "direction of the tangential motion");
   add_choice(command, "--lateral", arguments->lateral, {"held", "free"},
              "displacement across the motion: held at 0, or free of traction; default held");
   add_choice<Boundary>(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <salebra/analysis/sliding.hpp>
 #include <salebra/base/error.hpp>
@@ -26,7 +27,7 @@ struct SlidingArguments {
   MaterialOptions material;
   SlidingProblem sliding;
   FrequencyOptions frequency;
-  std::string hold = "auto", start = "rest";
+  std::string hold = "auto", start = "rest", direction = "auto";
   BodyOptions body;
   std::optional<double> support_damping, tolerance;
   std::optional<int> steps, max_cycles;
@@ -82,13 +83,20 @@ void check(const SlidingArguments& arguments) {
                "given, but it maps a single amplitude; give one --normal-amplitude");
 }
 
-ContactSolution contact_of(const SlidingArguments& arguments, Session& session) {
+std::vector<ContactSolution> contacts_of(const SlidingArguments& arguments, Session& session) {
   double largest = 0;
   for (const double amplitude : arguments.sliding.normal_amplitude)
     largest = std::max(largest, std::abs(amplitude));
-  ContactSolution contact =
-      arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest,
-                            *parse_enum<Hold>(arguments.hold));
+  std::vector<ContactSolution> contacts =
+      arguments.law.contacts(arguments.material, session, arguments.assumptions.hardness, largest,
+                             *parse_enum<Hold>(arguments.hold), arguments.direction);
+  const ContactSolution& contact = contacts.front();
+  const bool one =
+      arguments.of_slider() || !arguments.sliding.excursions.empty() || session.has_plot();
+  require(
+      !one || contacts.size() == 1, "--direction", arguments.direction,
+      "gives the directions across and along the lay; a slider, a regime map and a picture take "
+      "one of them");
   if (contact.surface && arguments.of_slider())
     session.inform(
         "The error of the motion is not known: it is computed on a law through some loads of the "
@@ -97,7 +105,7 @@ ContactSolution contact_of(const SlidingArguments& arguments, Session& session) 
     session.inform(
         "The errors of the regimes and of no_slip_excursion are not known: they are computed on a "
         "law through some loads of the surface");
-  return contact;
+  return contacts;
 }
 
 // Rows of a table, one for each velocity and excursion of the map.
@@ -110,18 +118,17 @@ std::vector<RegimePoint> rows_of(const RegimeMap& map) {
   return rows;
 }
 
-AssumptionReport assumptions_of(const SlidingSolution& found, const SlidingProblem& problem,
-                                const ContactSolution& contact, const ContactParameters& known) {
+void add_assumptions(const SlidingSolution& found, const SlidingProblem& problem,
+                     const ContactSolution& contact, const ContactParameters& known,
+                     AssumptionReport& assumptions) {
   const std::size_t count = problem.normal_amplitude.size(),
                     velocities = found.points.size() / count;
-  AssumptionReport assumptions{.list = count > 1};
   for (std::size_t k = 0; k < count; ++k) {
     const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
     const Drag motion{last.normal_amplitude, last.velocity, problem.angular_frequency};
     assumptions.cases.push_back(
         contact.assumptions_beside_slip(last.state.indentation, motion, known));
   }
-  return assumptions;
 }
 
 void slide(const SlidingArguments& arguments, Session& session) {
@@ -135,16 +142,32 @@ void slide(const SlidingArguments& arguments, Session& session) {
   problem.friction_coefficient = *arguments.assumptions.friction_coefficient;
   problem.angular_frequency = arguments.frequency.angular().front();
   problem.hold = *parse_enum<Hold>(arguments.hold);
-  const ContactSolution contact = contact_of(arguments, session);
-  const SlidingSolution found =
-      solve(problem, contact,
-            contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
-            session.context());
+  const std::vector<ContactSolution> contacts = contacts_of(arguments, session);
+  const ContactSolution& contact = contacts.front();
+  SlidingSolution found;
+  AssumptionReport assumptions;
+  for (const ContactSolution& one : contacts) {
+    SlidingSolution solution =
+        solve(problem, one,
+              one.surface ? arguments.material.material_with_tangential_modulus() : Material{},
+              session.context());
+    add_assumptions(solution, problem, one, arguments.assumptions.parameters(arguments.material),
+                    assumptions);
+    if (found.points.empty())
+      found = std::move(solution);
+    else
+      std::ranges::move(solution.points, std::back_inserter(found.points));
+  }
+  assumptions.list = assumptions.cases.size() > 1;
   session.warn(found.warnings);
 
   Json answer = Json::object(), columns = json_of(found.points);
-  if (single) {
-    columns.erase("normal_amplitude");
+  if (contacts.size() == 1 && columns.contains("direction")) {
+    answer["direction"] = columns["direction"][0];
+    columns.erase("direction");
+  }
+  if (single) columns.erase("normal_amplitude");
+  if (single && contacts.size() == 1) {
     for (const std::string_view name : of_amplitude) {
       if (contact.surface || !name.ends_with("_error")) answer[name] = columns[name][0];
       columns.erase(std::string(name));
@@ -169,8 +192,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
     session.plot(maps      ? regime_figure(*found.regimes, problem.angular_frequency)
                  : !single ? amplitude_figure(found.points, problem)
                            : sliding_figure(found.points, problem.friction_coefficient));
-  assumptions_of(found, problem, contact, arguments.assumptions.parameters(arguments.material))
-      .answer(session, answer, text);
+  assumptions.answer(session, answer, text);
 }
 
 SliderProblem slider_of(const SlidingArguments& arguments, Session& session) {
@@ -198,10 +220,12 @@ SliderProblem slider_of(const SlidingArguments& arguments, Session& session) {
 void drag_slider(const SlidingArguments& arguments, Session& session) {
   require_tables(session, {"motion", "averaged_motion"});
   const SliderProblem problem = slider_of(arguments, session);
-  const ContactSolution contact = contact_of(arguments, session);
+  const std::vector<ContactSolution> contacts = contacts_of(arguments, session);
+  const ContactSolution& contact = contacts.front();
   const SliderSolution found = solve(problem, *contact.law, contact.points.front());
 
   Json answer = json_of(found.motion);
+  if (!std::isnan(contact.direction())) answer["direction"] = contact.direction();
   answer["averaged"] = json_of(found.averaged);
   answer["mean_force"] = found.sliding.mean_force;
   const Json stability = json_of(found.stability);
@@ -284,6 +308,8 @@ void add_sliding_command(Program& program) {
   add_values(command, "--normal-amplitude", sliding.normal_amplitude, Dimension::length,
              "amplitude u_z of the normal motion; a list or a range gives a map over amplitudes; "
              "default 0 for a slider");
+  add_direction(command, arguments->direction,
+                "with --surface or --curve: direction of the sliding");
   arguments->frequency.add_to(command, "Motion", true);
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "which mean value the oscillation keeps; default auto: the indentation, or the "

@@ -34,6 +34,7 @@ Json damping_of_study(const StudyResult& result, const StudySolution& answer) {
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
   damping["hold"] = std::string(name_of(result.configuration.hold()));
+  if (!std::isnan(answer.direction)) damping["direction"] = answer.direction;
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
   damping.add(damping_columns(result, ContactModel::bem));
@@ -281,9 +282,20 @@ std::string adhesion_table(const StudyResult& result) {
                      100 * result.adhesion_cycle(reversible_share).mean);
 }
 
+/// The damping constant at each load in one direction, with its assumptions.
+std::string damping_text(const StudyResult& result, const StudySolution& answer) {
+  const double friction = result.configuration.known.friction_coefficient;
+  const std::string motion =
+      fmt::format("Damping constant: {}{}{}\n", motion_text(result.configuration),
+                  std::isnan(answer.direction) ? "" : ", " + direction_in_words(answer.direction),
+                  std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
+  const AssumptionReport assumptions = assumptions_of(answer, result);
+  return motion + assumptions.warning() + answer_table(result, answer) + notes(result, answer) +
+         "\n" + assumptions.text();
+}
+
 std::string study_text(const StudyResult& result, const StudySolution& answer) {
   const auto count = result.realisations.size();
-  const double friction = result.configuration.known.friction_coefficient;
   const bool flowed = std::ranges::any_of(
       result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
   std::string text = fmt::format(
@@ -297,11 +309,7 @@ std::string study_text(const StudyResult& result, const StudySolution& answer) {
   if (result.configuration.adhesion)
     return text + adhesion_table(result) + "\n" + accuracy(result) + law_line(result) +
            transport_table(result, answer);
-  text += fmt::format("Damping constant: {}{}\n", motion_text(result.configuration),
-                      std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
-  const AssumptionReport assumptions = assumptions_of(answer, result);
-  return text + assumptions.warning() + answer_table(result, answer) + notes(result, answer) +
-         "\n" + assumptions.text() + accuracy(result) + law_line(result) +
+  return text + damping_text(result, answer) + accuracy(result) + law_line(result) +
          transport_table(result, answer);
 }
 
@@ -331,9 +339,21 @@ void run_one(const StudyArguments& arguments, Session& session) {
   StudyConfiguration configuration;
   collectively(session.communicator(), [&] { configuration = arguments.study(); });
   run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
+    const std::vector<StudyResult> directions = result.in_directions();
     const StudySolution answer = solution_of(result);
-    return PointAnswer{study_json(result, answer),
-                       study_text(result, answer) + (arguments.verbose ? details(result) : "")};
+    Json json = study_json(result, answer);
+    std::string text = study_text(result, answer);
+    for (std::size_t k = 1; k < directions.size(); ++k) {
+      const StudySolution other = solution_of(directions[k]);
+      Json row;
+      row["damping"] = damping_of_study(directions[k], other);
+      assumptions_of(other, directions[k]).add_to(row);
+      Json& list = json["other_directions"];
+      if (k == 1) list = Json::array();
+      list.push_back(std::move(row));
+      text += "\n" + damping_text(directions[k], other);
+    }
+    return PointAnswer{std::move(json), text + (arguments.verbose ? details(result) : "")};
   });
 }
 

@@ -105,9 +105,18 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   Branch unloading = loading;
   AdhesiveCycleOptions options{.contact = arguments.adhesive_options(session),
                                .unload = arguments.cycle};
+  // The rows of a cycle are its states, one for each, so K_t has one direction.
+  double direction = 0;
+  if (arguments.direction != "auto") {
+    const std::vector<double> directions = arguments.directions_on(surface);
+    require(directions.size() == 1, "--direction", arguments.direction,
+            "gives two directions; several contacts with adhesion take one");
+    direction = directions.front();
+  }
   const SweepOptions sample{.contact = options.contact.contact,
                             .stiffness = arguments.wants_stiffness(),
-                            .stick = arguments.stick};
+                            .stick = arguments.stick,
+                            .direction = direction};
   options.on_state = [&](bool out, const AdhesiveContactState& state) {
     Branch& branch = out ? unloading : loading;
     if (out && branch.adhesion.empty()) branch.add(loading, loading.adhesion.size() - 1);
@@ -117,7 +126,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
       branch.curve.samples.push_back(force_sample(state, surface, material, sample));
     branch.adhesion.push_back(state);
     if (arguments.flow_factors)
-      branch.flow.push_back(state.detached ? FlowFactors() : flow_of(state, surface.grid, {}));
+      branch.flow.push_back(state.detached ? FlowFactors() : flow_of(state, surface, {}));
   };
   const AdhesiveCycle cycle =
       adhesive_cycle(surface, material.contact_modulus, points_of(arguments), adhesion, options);

@@ -30,6 +30,7 @@ struct ContactArguments {
 
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;
+  std::string direction = "auto";  ///< of K_t
   bool flow_factors = false;
   std::optional<int> distributions;  ///< number of bins of the distributions of pressure and gap
   Conduction conduction;
@@ -58,12 +59,14 @@ struct ContactArguments {
   Adhesion adhesion() const;
   AdhesiveContactOptions adhesive_options(Session& session) const;
   bool wants_stiffness() const { return stiffness || conduction.given(); }
+  /// Directions of K_t on a surface, rad. Collective.
+  std::vector<double> directions_on(const Surface& surface) const;
   /// Returns the conductances of a sample of the curve, per nominal area.
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 
-/// Returns a warning if the tangential stiffness is requested and the surface has a lay, on which it
-/// depends. Collective.
+/// Returns a warning if the tangential stiffness is requested without a stick solve and the surface
+/// has a lay, on which it depends. Collective.
 std::vector<std::string> warnings_of_direction(const ContactArguments& arguments,
                                                const Surface& surface);
 /// Answers with the state of the surface at one operating point, by boundary elements.
@@ -88,9 +91,10 @@ Json conductances_json(const Found& found, const Conduction& asked) {
 inline constexpr const char* flow_failure =
     "contact: flow factors that are null although the gap percolates did not converge, as happens "
     "close to the load at which it closes; the other numbers are valid";
-/// Computes the flow factors of a converged state. Factors whose solve did not converge are
-/// unknown.
-FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress);
+/// Computes the flow factors of a converged state of a surface, also across and along its lay if it
+/// has one. Factors whose solve did not converge are unknown.
+FlowFactors flow_of(const NormalContactState& state, const Surface& surface,
+                    const Progress& progress);
 /// Adds the requested quantities to the columns of the JSON answer, and returns them as columns of
 /// the file. flow: flow factors of each sample; empty if they were not requested.
 std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const ForceCurve& curve,

@@ -70,8 +70,11 @@ std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const For
     beside = columns_beside(found);
   }
   if (!flow.empty()) {
-    columns.add(json_of(flow));
-    std::ranges::move(columns_beside(flow), std::back_inserter(beside));
+    // A curve of several directions repeats its loads, and so their flow.
+    std::vector<FlowFactors> rows;
+    while (rows.size() < curve.samples.size()) rows.insert(rows.end(), flow.begin(), flow.end());
+    columns.add(json_of(rows));
+    std::ranges::move(columns_beside(rows), std::back_inserter(beside));
   }
   return beside;
 }
@@ -113,12 +116,14 @@ void press_often(const ContactArguments& arguments, Session& session) {
   session.warn(warnings_of_direction(arguments, surface));
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
+  const std::vector<double> directions = arguments.directions_on(surface);
   std::vector<FlowFactors> flow(arguments.flow_factors ? pressures.size() : 0);
   if (arguments.flow_factors)
     options.on_state = [&](std::size_t k, const NormalContactState& state) {
-      flow[k] = flow_of(state, surface.grid, {});
+      flow[k] = flow_of(state, surface, {});
     };
-  const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
+  const ForceCurve curve =
+      joined(sweep_directions(surface, material, pressures, directions, options));
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
   Json answer = {{"curve", to_json(curve)}};
   if (!session.communicator().alone()) answer["groups"] = groups;

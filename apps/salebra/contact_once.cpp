@@ -62,7 +62,12 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
       group.attribute(std::string(quantity.name), number(state));
     });
     for (const auto& [quantity, values] : beside)
-      group.plain().attribute(std::string(quantity.name), values.front());
+      if (quantity.name == "direction" && values.size() > 1) group.coordinate("direction", values);
+    for (const auto& [quantity, values] : beside)
+      if (values.size() == 1)
+        group.plain().attribute(std::string(quantity.name), values.front());
+      else if (quantity.name != "direction")
+        group.dataset(std::string(quantity.name), values, {"direction"});
     if (arguments.distributions) {
       QuantityGroup densities(file->group("distributions"));
       densities.coordinate("contact_pressure", distributions.contact_pressure);
@@ -208,14 +213,20 @@ class OneContact {
     SweepOptions options{.contact = options_, .stick = arguments_.stick};
     if (arguments_.adhesive())
       options.contact.hardness = arguments_.adhesion().pressure_bound(options_.hardness);
-    const ForceSample sample = force_sample(state_, surface_, material_, options);
-    const Json columns = json_of(sample, area);
-    for (const char* name :
-         {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})
-      if (name[0] != 't' || std::isfinite(material_.tangential_modulus)) {
-        answer_[name] = columns[name];
-        beside_.push_back({find_quantity(name), {columns[name].number()}});
-      }
+    const std::vector<ForceSample> samples =
+        force_samples(state_, surface_, material_, options, arguments_.directions_on(surface_));
+    const ForceSample& sample = samples.front();
+    const Json columns = json_of(sample, area), rows = json_of(samples, area);
+    for (const char* name : {"normal_stiffness", "normal_stiffness_per_area"}) {
+      answer_[name] = columns[name];
+      beside_.push_back({find_quantity(name), {columns[name].number()}});
+    }
+    for (const char* name : {"tangential_stiffness", "direction"}) {
+      if (!std::isfinite(material_.tangential_modulus) || !rows.contains(name)) continue;
+      answer_[name] = samples.size() == 1 ? columns[name] : rows[name];
+      CurveColumn& column = beside_.emplace_back(find_quantity(name));
+      for (const Json& value : rows[name].elements()) column.values.push_back(value.number());
+    }
     const Conductances found = arguments_.conductances_of(sample, area);
     answer_.add(conductances_json(found, arguments_.conduction));
     put_beside(found);
@@ -226,7 +237,7 @@ class OneContact {
   }
 
   void add_flow() {
-    flow_ = flow_of(state_, surface_.grid, session_.progress());
+    flow_ = flow_of(state_, surface_, session_.progress());
     if (flow_.termination == Termination::interrupted)
       throw Interrupted("contact: interrupted; the flow factors were not computed");
     answer_.add(json_of(flow_));

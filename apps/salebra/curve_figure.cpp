@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/surface/lay.hpp>
 #include <tuple>
 #include <utility>
 
@@ -39,8 +40,10 @@ void add_fit(PlotPanel& panel, const ExponentialFit& fit) {
 
 }  // namespace
 
-Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit) {
+Figure curve_figure(const ForceCurve& all, const std::optional<ExponentialFit>& fit) {
   Figure figure;
+  const std::vector<ForceCurve> curves = by_direction(all);
+  const ForceCurve& curve = curves.front();
   const PlotAxis pressure{.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
   PlotCurve gaps = points_of(curve, curve.model.empty() ? "curve" : plot_text(curve.model),
                              &ForceSample::mean_gap, &ForceSample::pressure);
@@ -65,10 +68,17 @@ Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>
   stiffness.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
   stiffness.y = {.label = "stiffness", .unit = "N/m", .logarithmic = true};
   stiffness.legend = PlotLegend::top_left;
-  for (const auto& [name, member] : {std::pair{"normal, K", &ForceSample::normal_stiffness},
-                                     {"tangential, K_t", &ForceSample::tangential_stiffness}})
-    if (PlotCurve points = points_of(curve, name, &ForceSample::force, member); !points.x.empty())
+  const auto add = [&](const ForceCurve& one, const std::string& name,
+                       double ForceSample::*member) {
+    if (PlotCurve points = points_of(one, name, &ForceSample::force, member); !points.x.empty())
       stiffness.curves.push_back(std::move(points));
+  };
+  add(curve, "normal, K", &ForceSample::normal_stiffness);
+  for (const ForceCurve& one : curves)
+    add(one,
+        std::isnan(one.direction()) ? "tangential, K_t"
+                                    : "tangential, K_t, " + direction_in_words(one.direction()),
+        &ForceSample::tangential_stiffness);
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
   return figure;
 }

@@ -200,32 +200,50 @@ Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
 
 Figure damping_figure(const std::string& quantity, const std::vector<double>& values,
                       const std::vector<DampingResult>& results) {
-  PlotCurve exact{.name = "W", .x = values}, small{.name = "small-amplitude form", .x = values};
-  small.style = PlotStyle::dashed;
-  PlotCurve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
-  for (const DampingResult& result : results) {
-    exact.y.push_back(result.work_per_cycle);
-    small.y.push_back(result.small_amplitude_work);
-    ratio.y.push_back(100 * (result.small_amplitude_work / result.work_per_cycle - 1));
-    constant.y.push_back(result.damping_constant);
-  }
   const PlotAxis x = axis_of(quantity, spans_decades(values));
   Figure figure;
   figure.columns = 3;
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
-                           .x = x,
-                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(exact.y)},
-                           .legend = PlotLegend::top_left});
-  figure.panels.back().curves = {exact, small};
+  std::vector<PlotCurve> works, ratios, constants;
+  const std::size_t directions = results.size() / values.size();
+  for (std::size_t d = 0; d < directions; ++d) {
+    const std::string way =
+        directions > 1 ? ", " + direction_in_words(results[d * values.size()].direction) : "";
+    PlotCurve exact{.name = "W" + way, .x = values},
+        small{.name = "small-amplitude form" + way, .x = values};
+    small.style = PlotStyle::dashed;
+    PlotCurve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
+    if (directions > 1)
+      for (PlotCurve* curve : {&ratio, &constant}) {
+        curve->name = direction_in_words(results[d * values.size()].direction);
+        curve->color = -1;
+      }
+    for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
+      const DampingResult& result = results[k];
+      exact.y.push_back(result.work_per_cycle);
+      small.y.push_back(result.small_amplitude_work);
+      ratio.y.push_back(100 * (result.small_amplitude_work / result.work_per_cycle - 1));
+      constant.y.push_back(result.damping_constant);
+    }
+    works.insert(works.end(), {exact, small});
+    ratios.push_back(ratio);
+    constants.push_back(constant);
+  }
+  figure.panels.push_back(
+      {.title = "Energy dissipated in a cycle",
+       .x = x,
+       .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(works.front().y)},
+       .legend = PlotLegend::top_left});
+  figure.panels.back().curves = works;
   figure.panels.push_back(
       {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}});
-  figure.panels.back().curves = {ratio};
-  if (std::ranges::any_of(constant.y, [](double value) { return std::isfinite(value); })) {
+  figure.panels.back().curves = ratios;
+  const std::vector<double>& first = constants.front().y;
+  if (std::ranges::any_of(first, [](double value) { return std::isfinite(value); })) {
     figure.panels.push_back(
         {.title = "Damping constant",
          .x = x,
-         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(constant.y)}});
-    figure.panels.back().curves = {constant};
+         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(first)}});
+    figure.panels.back().curves = constants;
   }
   return figure;
 }

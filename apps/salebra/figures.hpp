@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -155,8 +155,18 @@ ContactProblem LawOptions::read(const MaterialOptions& material, bool with_point
 }
 
 ContactProblem LawOptions::problem(const MaterialOptions& material, Session& session,
-                                   const std::optional<double>& hardness) const {
-  if (!surface.given()) return read(material, true);
+                                   const std::optional<double>& hardness,
+                                   const std::string& direction) const {
+  const DirectionChoice choice =
+      direction.empty() ? 0.0 : direction_choice(direction, "--direction");
+  if (!surface.given()) {
+    ContactProblem problem = read(material, true);
+    auto* body = std::get_if<CurveContact>(&problem);
+    require(body || direction.empty() || direction == "auto", "--direction", direction,
+            "given, but this law is the same in all directions; leave it out");
+    if (body && !direction.empty()) body->direction = choice;
+    return problem;
+  }
   require(indenter.law.empty() && curve.empty() && !of_roughness(), "--surface", surface.file,
           "is given together with --law, --curve or --rms-height; give one of them");
   require_own_parameters();
@@ -164,20 +174,22 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
   return SurfaceContact{.surface = surface.read(session),
                         .material = material.material_with_tangential_modulus(),
                         .pressure = std::move(values),
-                        .hardness = hardness};
+                        .hardness = hardness,
+                        .direction = choice};
 }
 
-ContactSolution LawOptions::contact(const MaterialOptions& material, Session& session,
-                                    const std::optional<double>& hardness, double normal_amplitude,
-                                    Hold hold) const {
-  ContactProblem asked = problem(material, session, hardness);
+std::vector<ContactSolution> LawOptions::contacts(const MaterialOptions& material, Session& session,
+                                                  const std::optional<double>& hardness,
+                                                  double normal_amplitude, Hold hold,
+                                                  const std::string& direction) const {
+  ContactProblem asked = problem(material, session, hardness, direction);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) {
     body->normal_amplitude = normal_amplitude;
     body->hold = hold;
   }
-  ContactSolution contact = solve(std::move(asked), session.context());
-  session.warn(contact.warnings);
-  return contact;
+  std::vector<ContactSolution> contacts = solve_directions(std::move(asked), session.context());
+  session.warn(contacts.front().warnings);
+  return contacts;
 }
 
 ContactProblem LawOptions::problem_of_law(const MaterialOptions& material) const {

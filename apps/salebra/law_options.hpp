@@ -33,13 +33,16 @@ struct LawOptions {
   std::vector<ContactProblem> problems(const MaterialOptions& material, Session& session,
                                        const std::optional<double>& hardness) const;
   /// The contact that the options describe, with its operating points. Throws InvalidInput if an
-  /// option is missing or does not fit the others. Reads the file of a surface.
+  /// option is missing or does not fit the others. Reads the file of a surface. direction: value of
+  /// --direction; empty for a command without this option, which takes motion along x.
   ContactProblem problem(const MaterialOptions& material, Session& session,
-                         const std::optional<double>& hardness) const;
-  /// Solves problem() and prints the warnings of the solution.
-  ContactSolution contact(const MaterialOptions& material, Session& session,
-                          const std::optional<double>& hardness, double normal_amplitude,
-                          Hold hold = Hold::automatic) const;
+                         const std::optional<double>& hardness,
+                         const std::string& direction = "") const;
+  /// Solves problem() and prints the warnings of the solutions, one for each direction.
+  std::vector<ContactSolution> contacts(const MaterialOptions& material, Session& session,
+                                        const std::optional<double>& hardness,
+                                        double normal_amplitude, Hold hold,
+                                        const std::string& direction) const;
   /// The contact without operating points, for a motion that has its own indentations.
   /// --normal-force of the exponential law is then the force at indentation 0.
   ContactProblem problem_of_law(const MaterialOptions& material) const;

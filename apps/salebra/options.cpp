@@ -176,6 +176,14 @@ std::uint64_t seed_of(const std::string& text) {
 
 }  // namespace
 
+Option* add_direction(Command& app, std::string& target, const std::string& what) {
+  return app.add_option("--direction", target,
+                        what +
+                            ": across or along the lay of the surface, both, or an angle from "
+                            "the x axis, such as 30deg; default both where the surface has a "
+                            "lay, else 0deg");
+}
+
 Option* add_seed(Command& app, std::uint64_t& target, const std::string& help) {
   return app
       .add_option_function(

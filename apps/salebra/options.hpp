@@ -52,6 +52,9 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
   return add_choice(app, name, target, words, help);
 }
 
+/// Adds --direction, whose value direction_choice() reads. what: what has this direction.
+Option* add_direction(Command& app, std::string& target, const std::string& what);
+
 /// Adds --steps, the number of steps of a cycle.
 template <class Target>
 Option* add_steps(Command& app, Target& target, const std::string& help) {

@@ -99,6 +99,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
       "intervals between the contacts that are solved inside the oscillation: 4, 8, 16 or 32, half "
       "as many on finer grids and for each of several surfaces; default 4. 0 solves none and takes "
       "the loss from the curve between loads: faster, but the error is not known");
+  add_direction(command, direction, "direction of the tangential motion");
   add_choice<SeamCheck>(command, "--seam-error", seam_error,
                         "add the error of continuing a scan periodically, estimated from its "
                         "heights with a window or from the scan alone on a half-space");
@@ -296,6 +297,7 @@ StudyConfiguration StudyArguments::study() const {
     study.intervals = intervals;
   }
   if (const auto seam = parse_enum<SeamCheck>(seam_error)) study.seam = seam;
+  if (!direction.empty()) study.direction = direction_choice(direction, "--direction");
   if (no_stick) study.stick = false;
   if (flow_factors) study.flow_factors = true;
   conduction.validate();

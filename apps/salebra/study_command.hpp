@@ -30,7 +30,7 @@ struct StudyArguments {
   std::vector<double> pressures;
   std::optional<double> precision, relative_error;
   std::optional<int> intervals;
-  std::string seam_error;
+  std::string seam_error, direction;
   bool no_stick = false, flow_factors = false;
   bool resume = false;
   DryRunOptions dry_run;

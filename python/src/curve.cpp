@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
 #include "interop/described.hpp"
+#include "interop/direction.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -93,7 +95,7 @@ void bind_sweep(nb::module_& m) {
       [](const BoundSurface& surface, const MaterialArgument& given, const Values& pressures,
          bool stiffness, bool stick, int concurrent_loads, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const Choice<Precision>& precision, double hardness,
-         const ProgressArgument& progress) {
+         const std::variant<double, std::string>& direction, const ProgressArgument& progress) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
         const Material material = given.material();
         SweepOptions options;
@@ -104,6 +106,13 @@ void bind_sweep(nb::module_& m) {
                            .hardness = hardness};
         options.stiffness = stiffness;
         options.stick = stick;
+        const DirectionChoice chosen = direction_of(direction);
+        require_that(stick || chosen == DirectionChoice(0.0), "direction",
+                     "given without `stick`: (G*/E*)K has no direction; give both");
+        const std::vector<double> directions = directions_of(chosen, surface.surface);
+        require(directions.size() == 1, "direction", directions.size(),
+                "directions chosen; a curve has one");
+        options.direction = directions.front();
         options.concurrent_loads = concurrent_loads;
         return interruptible(
             progress,
@@ -117,7 +126,8 @@ void bind_sweep(nb::module_& m) {
       nb::arg("stiffness") = true, nb::arg("stick") = false, nb::arg("concurrent_loads") = 0,
       nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
-      nb::arg("hardness") = std::numeric_limits<double>::infinity(), nb::arg("progress") = false,
+      nb::arg("hardness") = std::numeric_limits<double>::infinity(), nb::arg("direction") = 0.0,
+      nb::arg("progress") = false,
       R"(Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads.
 
 Parameters
@@ -130,13 +140,15 @@ pressures : array_like
 stiffness : bool
     Compute K by a punch solve on each contact set, and K_t = (G*/E*)K if G* is known.
 stick : bool
-    With `stiffness`: compute K_t along x by a stick solve on each contact set instead.
+    With `stiffness`: compute K_t along `direction` by a stick solve on each contact set instead.
 concurrent_loads : int
     Loads solved at the same time, each with its own 50 to 60 bytes per cell; 0: as many as there are threads. Surfaces that are
     distributed over processes solve one load after the other.
 tolerance, max_iterations, boundary, precision, hardness
     As for :func:`press`. With a hardness this is the curve of first loading; for unloading, sweep the surface that
     :func:`after_first_loading` returns.
+direction : float or str
+    Of K_t, with `stick`: an angle from the x axis, rad or with a unit such as "30deg", or "across" or "along" the lay of the surface.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop; the finished loads are returned.
 

@@ -4,6 +4,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include "interop/citations.hpp"
 #include "interop/curves.hpp"
 #include "interop/described.hpp"
+#include "interop/direction.hpp"
 #include "interop/path.hpp"
 #include "interop/reading.hpp"
 #include "interop/running.hpp"
@@ -60,6 +62,19 @@ Raises
 InvalidInput
     "models: …" for another name.
 )")
+      .def(
+          "with_direction",
+          [](const StudyConfiguration& study, const std::variant<double, std::string>& direction) {
+            StudyConfiguration turned = study;
+            turned.direction = direction_of(direction);
+            return turned;
+          },
+          nb::arg("direction"),
+          "The same study with another direction of the tangential motion: an angle from the x "
+          "axis, rad "
+          "or with a unit such as \"30deg\", or \"across\", \"along\" or \"both\" for the lay of "
+          "the "
+          "surface.")
       .def(
           "with_surface",
           [](const StudyConfiguration& self, const std::filesystem::path& file,
@@ -294,6 +309,12 @@ void bind_result(nb::module_& m) {
           "for a "
           "95 % interval of ±precision, estimated from the scatter of these surfaces; NaN for one "
           "surface.")
+      .def("direction", &StudyResult::direction,
+           "Direction of the tangential motion, from the x axis, rad; NaN if K_t has no direction.")
+      .def("in_directions", &StudyResult::in_directions,
+           "This result, followed by the same in further directions of the tangential motion: "
+           "across "
+           "the lay, then along it.")
       .def("convergence_counts", &StudyResult::convergence_counts,
            "Numbers of surfaces for convergence(): all up to 128, then 32 in each doubling.")
       .def(

@@ -17,6 +17,7 @@
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"
 #include "interop/described.hpp"
+#include "interop/direction.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -25,9 +26,11 @@ namespace {
 
 /// The losses of a solution over the pressure, with their assumptions.
 BoundDampingCurve curve_of(const DampingSolution& solution, const std::vector<double>& pressures) {
-  BoundDampingCurve curve{"pressure", pressures, {}};
-  for (std::size_t i = 0; i < solution.results.size(); ++i)
+  BoundDampingCurve curve{"pressure", {}, {}};
+  for (std::size_t i = 0; i < solution.results.size(); ++i) {
+    curve.values.push_back(pressures[i % pressures.size()]);
     curve.results.push_back({solution.results[i], solution.assumptions[i], {}});
+  }
   return curve;
 }
 
@@ -50,6 +53,7 @@ BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const Forc
     result.hold = losses[k].hold;
     result.error_estimate = losses[k].work_per_cycle_error();
     result.converged = losses[k].converged;
+    result.direction = load.direction;
     curve.results.push_back({result, {}, {}});
   }
   return curve;
@@ -66,8 +70,12 @@ void bind_surface_damping(nb::module_& m) {
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          const Choice<Boundary>& boundary, double relative_error,
          const std::optional<Choice<SeamCheck>>& seam, double friction_coefficient,
-         double excursion, const ProgressArgument& progress) {
+         double excursion, const std::variant<double, std::string>& direction,
+         const ProgressArgument& progress) {
         cite({"popov2015"});
+        const DirectionChoice chosen = direction_of(direction);
+        require_that(!curve || chosen == DirectionChoice(LayDirection::automatic), "direction",
+                     "given with a `curve`, which has the direction of its K_t; leave it out");
         require_one(curve != nullptr, "curve", pressures.has_value(), "pressures");
         ContactParameters all = known(parameters);
         const auto take = [](double& parameter, double given, const char* name) {
@@ -103,8 +111,10 @@ void bind_surface_damping(nb::module_& m) {
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
-              SurfaceContact contact{
-                  .surface = surface.surface, .material = material, .pressure = pressures->values};
+              SurfaceContact contact{.surface = surface.surface,
+                                     .material = material,
+                                     .pressure = pressures->values,
+                                     .direction = chosen};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
               const DampingSolution solution = solve(DampingProblem{.contact = std::move(contact),
                                                                     .motions = {described},
@@ -126,7 +136,7 @@ void bind_surface_damping(nb::module_& m) {
       nb::arg("hold") = "auto", nb::arg("amplitude") = "finite", nb::arg("boundary") = "periodic",
       nb::arg("relative_error") = 0.0, nb::arg("seam") = nb::none(),
       nb::arg("friction_coefficient") = Loss::unknown, nb::arg("excursion") = Loss::unknown,
-      nb::arg("progress") = false,
+      nb::arg("direction") = "auto", nb::arg("progress") = false,
       R"(Damping of one surface at each pressure, from contacts within the oscillation, with its error.
 
 Nothing is interpolated between loads. Cells are halved once to estimate their error; with relative_error > 0 they are halved further
@@ -158,12 +168,15 @@ friction_coefficient : float
     As in `parameters`; NaN: infinite, no slip.
 excursion : float
     Distance between the turning points of a Drag, m, as in `parameters`; required for a Drag with friction.
+direction : float or str
+    Direction of the tangential motion: an angle from the x axis, rad or with a unit such as "30deg", or "across", "along" or "both" for the
+    lay of the surface. "auto": "both" if the surface has a lay, otherwise along x. With both, all pressures across the lay come first.
 
 Returns
 -------
 DampingCurve
     A sequence of DampingResult in the order of the loads, with an array for each number: ``found.damping_constant``,
-    ``found.damping_constant_error``, ``found.damping_constant_without_slip``, ``found.regime``.
+    ``found.damping_constant_error``, ``found.damping_constant_without_slip``, ``found.regime``, ``found.direction``.
 )");
 }
 

@@ -69,23 +69,26 @@ void bind_flow(nb::module_& m) {
                                "factors are NaN if nothing flows.");
   m.def(
       "flow_factors",
-      [](const BoundContact& state, double tolerance, int max_iterations,
+      [](const BoundContact& state, double tolerance, int max_iterations, double lay_angle,
          const ProgressArgument& progress) {
         cite({"patir_cheng1978"});
         require_that(state.boundary == Boundary::periodic, "state",
                      "has a free boundary, and flow factors are of a gap that repeats itself");
         return interruptible(progress, [&](Progress told) {
-          return flow_factors(state, state.grid, {tolerance, max_iterations, std::move(told)});
+          return flow_factors(state, state.grid,
+                              {tolerance, max_iterations, lay_angle, std::move(told)});
         });
       },
       nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = FlowOptions().tolerance,
-      nb::arg("max_iterations") = FlowOptions().max_iterations, nb::arg("progress") = false,
+      nb::arg("max_iterations") = FlowOptions().max_iterations,
+      nb::arg("lay_angle") = FlowFactors::unknown, nb::arg("progress") = false,
       R"(Percolation and pressure flow factors of the gap of a periodic contact, by Reynolds' equation.
 
 .. math:: \nabla\cdot(g^3\nabla p) = 0,\ \langle\nabla p\rangle = e_x, \qquad
           \phi_x = \frac{\langle g^3\,\partial p/\partial x\rangle}{\langle g\rangle^3}
 
-The mean gap is the mean over all cells, including those in contact.
+The mean gap is the mean over all cells, including those in contact. With `lay_angle`, the angle of the lay from the x axis in rad as
+:func:`surface_lay` finds it, the factors across and along the lay are computed too.
 
 References
 ----------

@@ -2,10 +2,12 @@
 // The law of a contact and its operating points, from a formula, an indenter, a force curve or a
 // surface.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
@@ -158,21 +160,24 @@ void require_converged(const ForceCurve& curve, const Context& context) {
         fmt::format("`surface`: {} of {} contacts did not converge", lost, curve.samples.size()));
 }
 
-ForceCurve curve_of_surface(const SurfaceContact& body, const Context& context) {
-  ForceCurve curve = sweep_pressures(body.surface, body.material, pressures_about(body.pressure),
-                                     sweep_options(context));
-  require_converged(curve, context);
+std::vector<ForceCurve> curves_of_surface(const SurfaceContact& body,
+                                          const std::vector<double>& pressures,
+                                          const std::vector<double>& directions,
+                                          const Context& context) {
+  std::vector<ForceCurve> curves =
+      sweep_directions(body.surface, body.material, pressures, directions, sweep_options(context));
+  require_converged(curves.front(), context);
   // In full contact nothing can close further: the force grows without indentation.
   const auto full = [](const ForceSample& sample) { return !(sample.contact_area_fraction < 1); };
-  for (const ForceSample& sample : curve.samples)
+  for (const ForceSample& sample : curves.front().samples)
     if (full(sample))
       for (const double pressure : body.pressure)
         require(
             !(pressure > sample.pressure * (1 - 1e-6)), "pressure",
             format_quantity(pressure, Dimension::pressure),
             "presses the surface into full contact, which has no stiffness; choose a smaller one");
-  std::erase_if(curve.samples, full);
-  return curve;
+  for (ForceCurve& curve : curves) std::erase_if(curve.samples, full);
+  return curves;
 }
 
 /// What the oscillation of a surface about its pressures keeps; `curve` has these pressures.
@@ -185,11 +190,12 @@ Hold hold_of(const SurfaceContact& body, const ForceCurve& curve) {
   return detail::hold_of(asked, body.normal_amplitude, body.hold);
 }
 
-/// Adds loads to the curve of a surface until it covers the oscillation about each pressure, down
-/// to a hundredth of the pressure and up to the largest load. The steps in ln F are those of
-/// pressures_about(), and twice as large below.
-void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
-                  const Context& context) {
+/// Adds loads to the curves of a surface in all directions until they cover the oscillation about
+/// each pressure, down to a hundredth of the pressure and up to the largest load. The steps in ln F
+/// are those of pressures_about(), and twice as large below.
+void cover_motion(std::vector<ForceCurve>& curves, const std::vector<double>& directions,
+                  const SurfaceContact& body, Hold hold, const Context& context) {
+  const ForceCurve& curve = curves.front();
   constexpr double step = 1.35, lowest_share = 0.01;
   const double amplitude = body.normal_amplitude, ratio = body.material.modulus_ratio();
   const SweepOptions options = sweep_options(context);
@@ -211,7 +217,8 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
       NormalContactState state =
           press(body.surface, body.material.contact_modulus,
                 at_indentation(std::min(*next, top + std::log(step) * length)), options.contact);
-      curve.samples.push_back(force_sample(state, body.surface, body.material, options));
+      const auto samples = force_samples(state, body.surface, body.material, options, directions);
+      for (std::size_t k = 0; k < curves.size(); ++k) curves[k].samples.push_back(samples[k]);
       require_converged(curve, context);
     }
     const TabulatedLaw law(curve, ratio);
@@ -223,9 +230,10 @@ void cover_motion(ForceCurve& curve, const SurfaceContact& body, Hold hold,
   }
   if (below.empty()) return;
   std::ranges::reverse(below);
-  const ForceCurve lower = sweep_pressures(body.surface, body.material, below, options);
-  require_converged(lower, context);
-  curve.samples.insert(curve.samples.begin(), lower.samples.begin(), lower.samples.end());
+  const std::vector<ForceCurve> lower = curves_of_surface(body, below, directions, context);
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    curves[k].samples.insert(curves[k].samples.begin(), lower[k].samples.begin(),
+                             lower[k].samples.end());
 }
 
 std::unique_ptr<const ContactLaw> law(const ExponentialContact& body, const Context& context) {
@@ -254,11 +262,19 @@ std::unique_ptr<const ContactLaw> law(const SurfaceContact&, const Context&) {
       "has no law for a path of indentations; compute its force curve and give it as `curve`");
 }
 
-ContactSolution solution(ExponentialContact body, const Context& context) {
-  return {law(body, context), at_forces(body.normal_force)};
+using Solutions = std::vector<ContactSolution>;
+
+Solutions one_solution(ContactSolution solution) {
+  Solutions solutions;
+  solutions.push_back(std::move(solution));
+  return solutions;
 }
 
-ContactSolution solution(IndenterContact body, const Context& context) {
+Solutions solutions(ExponentialContact body, const Context& context) {
+  return one_solution({law(body, context), at_forces(body.normal_force)});
+}
+
+Solutions solutions(IndenterContact body, const Context& context) {
   auto force_law = law(body, context);
   const auto& [control, values] = body.at;
   require_that(control == ControlQuantity::normal_force || control == ControlQuantity::indentation,
@@ -273,28 +289,67 @@ ContactSolution solution(IndenterContact body, const Context& context) {
     solution.warnings = warnings_of_profile(*body.profile, radius);
     if (!solution.warnings.empty()) break;
   }
-  return solution;
+  return one_solution(std::move(solution));
 }
 
-ContactSolution solution(CurveContact body, const Context& context) {
-  std::vector<std::string> warnings = warnings_of_moduli(body.curve, body.modulus_ratio);
-  auto table = law(body, context);
-  auto points = points_on(body.curve, body.at, body.source);
-  return {std::move(table), std::move(points), std::move(body.curve), {}, {}, std::move(warnings)};
+/// The curves of a contact in the directions that it asks for.
+std::vector<ForceCurve> chosen_curves(const CurveContact& body) {
+  std::vector<ForceCurve> curves = by_direction(body.curve);
+  if (body.direction == DirectionChoice(LayDirection::automatic)) return curves;
+  std::vector<std::string> known;
+  for (const ForceCurve& curve : curves)
+    if (!std::isnan(curve.direction()))
+      known.push_back(fmt::format("{:.6g}deg", curve.direction() * 180 / std::numbers::pi));
+  const std::string there =
+      known.empty() ? "has a tangential stiffness without a direction; leave this out"
+                    : fmt::format(
+                          "is not in the curve, which has {}; leave this out or give one "
+                          "of its directions",
+                          fmt::join(known, " and "));
+  const double* angle = std::get_if<double>(&body.direction);
+  if (angle == nullptr)
+    throw InvalidInput("direction", std::string(name_of(std::get<LayDirection>(body.direction))),
+                       "needs a surface; the curve " + there);
+  const double asked = directions_of(body.direction, SurfaceLay{}).front();
+  // Directions are written with six digits of the angle.
+  std::erase_if(curves, [&](const ForceCurve& curve) {
+    const double difference = std::abs(curve.direction() - asked);
+    return !(std::min(difference, std::numbers::pi - difference) < 1e-5);
+  });
+  require(!curves.empty(), "direction", fmt::format("{:.6g}deg", *angle * 180 / std::numbers::pi),
+          there);
+  return curves;
 }
 
-ContactSolution solution(SurfaceContact body, const Context& context) {
+Solutions solutions(CurveContact body, const Context& context) {
+  Solutions all;
+  for (ForceCurve& curve : chosen_curves(body)) {
+    std::vector<std::string> warnings = warnings_of_moduli(curve, body.modulus_ratio);
+    CurveContact one{std::move(curve), body.modulus_ratio, body.at, body.source};
+    auto table = law(one, context);
+    auto points = points_on(one.curve, one.at, one.source);
+    all.push_back(
+        {std::move(table), std::move(points), std::move(one.curve), {}, {}, std::move(warnings)});
+  }
+  return all;
+}
+
+Solutions solutions(SurfaceContact body, const Context& context) {
   for (const double value : body.pressure) require_positive(value, "pressure");
   const double largest = std::ranges::max(body.pressure);
   std::vector<std::string> warnings;
   if (const auto warning = warning_of_pressure(largest, body.material.contact_modulus))
     warnings.push_back(*warning);
-  std::ranges::move(
-      warnings_of_lay(surface_lay(body.surface), 0,
-                      "the tangential stiffness and the damping constant are those of motion along "
-                      "x; along and across the lay they differ",
-                      {}),
-      std::back_inserter(warnings));
+  const SurfaceLay lay = surface_lay(body.surface);
+  const std::vector<double> directions = directions_of(body.direction, lay);
+  if (directions.size() == 1)
+    std::ranges::move(
+        warnings_of_lay(lay, 0,
+                        "the tangential stiffness and the damping constant are those of motion " +
+                            direction_in_words(directions.front()) +
+                            "; along and across the lay they differ",
+                        {}),
+        std::back_inserter(warnings));
   if (body.hardness && body.normal_amplitude > 0)
     body.hold = detail::hold_of(body.surface, body.material.contact_modulus,
                                 std::ranges::min(body.pressure), body.normal_amplitude, body.hold,
@@ -302,21 +357,21 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
   const std::optional<FirstLoading> first_loading =
       load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
                  {.on_progress = context.on_progress}, body.normal_amplitude, body.hold);
-  ForceCurve curve = curve_of_surface(body, context);
-  const Hold hold = body.normal_amplitude > 0 ? hold_of(body, curve) : body.hold;
-  if (body.normal_amplitude > 0) cover_motion(curve, body, hold, context);
-  CurveContact swept{.curve = std::move(curve),
-                     .modulus_ratio = body.material.modulus_ratio(),
-                     .at = {ControlQuantity::pressure, body.pressure}};
-  auto table = law(swept, context);
-  auto points = points_on(swept.curve, swept.at, "surface");
-  return {std::move(table),
-          std::move(points),
-          std::move(swept.curve),
-          std::move(body.surface),
-          first_loading,
-          std::move(warnings),
-          hold};
+  std::vector<ForceCurve> curves =
+      curves_of_surface(body, pressures_about(body.pressure), directions, context);
+  const Hold hold = body.normal_amplitude > 0 ? hold_of(body, curves.front()) : body.hold;
+  if (body.normal_amplitude > 0) cover_motion(curves, directions, body, hold, context);
+  Solutions all;
+  for (ForceCurve& curve : curves) {
+    CurveContact swept{.curve = std::move(curve),
+                       .modulus_ratio = body.material.modulus_ratio(),
+                       .at = {ControlQuantity::pressure, body.pressure}};
+    auto table = law(swept, context);
+    auto points = points_on(swept.curve, swept.at, "surface");
+    all.push_back({std::move(table), std::move(points), std::move(swept.curve), body.surface,
+                   first_loading, warnings, hold});
+  }
+  return all;
 }
 
 }  // namespace
@@ -353,7 +408,20 @@ Assumptions ContactSolution::assumptions_beside_slip(double indentation, const O
 }
 
 ContactSolution solve(ContactProblem problem, const Context& context) {
-  return std::visit([&](auto&& body) { return solution(std::move(body), context); },
+  // The number of directions is known before the contacts are solved.
+  std::size_t count = 1;
+  if (const auto* body = std::get_if<SurfaceContact>(&problem))
+    count = directions_of(body->direction, body->surface).size();
+  else if (const auto* curve = std::get_if<CurveContact>(&problem))
+    count = chosen_curves(*curve).size();
+  require(count == 1, "direction", count,
+          "directions are possible, across and along the lay; "
+          "give one");
+  return std::move(solve_directions(std::move(problem), context).front());
+}
+
+std::vector<ContactSolution> solve_directions(ContactProblem problem, const Context& context) {
+  return std::visit([&](auto&& body) { return solutions(std::move(body), context); },
                     std::move(problem));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
@@ -151,28 +152,32 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
   return loads;
 }
 
-/// Replaces the loss that the law of a surface gives by the loss from contacts solved inside the
-/// oscillation, which has a known error. The law would interpolate between loads.
+/// Replaces the losses that the laws of a surface give by the losses from contacts solved inside the
+/// oscillation, which have a known error. The laws would interpolate between loads. contacts: the
+/// surface in each direction, all cases of which are in `solution`.
 void resolve_on_surface(const DampingProblem& problem, const std::vector<double>& pressures,
-                        const Material& material, const Context& context,
-                        DampingSolution& solution) {
+                        const Material& material, const std::vector<ContactSolution>& contacts,
+                        const Context& context, DampingSolution& solution) {
   const Oscillation one = *oscillation_of(problem.motions.front());
   const bool known = why_loss_unknown(problem.motions.front(), problem.parameters).empty();
-  const ForceCurve loads = loads_with_neighbours(*solution.contact.curve, pressures);
+  std::vector<ForceCurve> loads;
+  for (const ContactSolution& contact : contacts)
+    loads.push_back(loads_with_neighbours(*contact.curve, pressures));
   SurfaceDampingOptions options = problem.surface;
   options.hold = problem.hold;
   options.amplitude = problem.amplitude;
   options.friction_coefficient = problem.parameters.friction_coefficient;
   options.excursion = problem.parameters.excursion;
   options.on_progress = context.on_progress;
-  const std::vector<SurfaceDamping> found =
-      surface_damping(*solution.contact.surface, material, one, loads, options);
+  const std::vector<std::vector<SurfaceDamping>> found =
+      surface_damping(*contacts.front().surface, material, one, loads, options);
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
-    const SurfaceDamping& load = found[place_of(loads, pressures[i])];
+    const std::size_t direction = i / pressures.size();
+    const double pressure = pressures[i % pressures.size()];
+    const SurfaceDamping& load = found[direction][place_of(loads[direction], pressure)];
     DampingResult& result = solution.results[i];
     if (!std::isnan(load.possible_amplitude))
-      detail::refuse_full_contact(detail::normal_amplitude(one), pressures[i],
-                                  load.possible_amplitude);
+      detail::refuse_full_contact(detail::normal_amplitude(one), pressure, load.possible_amplitude);
     static_cast<Loss&>(result) = load;
     // The assumptions are judged by the law, so the result keeps the mean indentation of the law.
     result.mean_force = load.mean_force;
@@ -188,7 +193,7 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
       solution.warnings.push_back(
           fmt::format("at {} there is no loss, because its error is larger than the loss; a study "
                       "of the surface with a `relative_error` halves the cells further",
-                      format_quantity(pressures[i], Dimension::pressure)));
+                      format_quantity(pressure, Dimension::pressure)));
   }
 }
 
@@ -353,20 +358,28 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     pressures = surface->pressure;
     material = surface->material;
   }
-  DampingSolution solution{solve(std::move(problem.contact), context)};
-  const ContactLaw& law = *solution.contact.law;
-  const std::vector<Case> cases = cases_of(solution.contact.points, problem);
-  problem.hold = hold_of_all(law, cases, surface ? solution.contact.hold : problem.hold);
+  std::vector<ContactSolution> contacts = solve_directions(std::move(problem.contact), context);
+  const std::vector<Case> cases = cases_of(contacts.front().points, problem);
+  problem.hold =
+      hold_of_all(*contacts.front().law, cases, surface ? contacts.front().hold : problem.hold);
   const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
-  solution.results = results_of(law, cases, options, context);
+  DampingSolution solution;
+  for (const ContactSolution& contact : contacts) {
+    std::ranges::move(results_of(*contact.law, cases, options, context),
+                      std::back_inserter(solution.results));
+    for (std::size_t k = solution.results.size() - cases.size(); k < solution.results.size(); ++k)
+      solution.results[k].direction = contact.direction();
+  }
   if (const auto warning = detail::warning_of_held_indentation(solution.results))
     solution.warnings.push_back(*warning);
   // Why a loss is unknown, or was dropped; the first reason found serves all cases.
   std::string unknown, dropped;
-  if (surface) resolve_on_surface(problem, pressures, material, context, solution);
+  if (surface) resolve_on_surface(problem, pressures, material, contacts, context, solution);
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const Case& one = cases[i];
+  for (std::size_t i = 0; i < solution.results.size(); ++i) {
+    const ContactSolution& contact = contacts[i / cases.size()];
+    const ContactLaw& law = *contact.law;
+    const Case& one = cases[i % cases.size()];
     DampingResult& result = solution.results[i];
     solution.motions.push_back(one.motion);
     const std::string why =
@@ -380,8 +393,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
       if (const std::string why_dropped = drop_uncertain(result); dropped.empty())
         dropped = why_dropped;
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
-    solution.assumptions.push_back(
-        assumptions_of_case(solution.contact, one, result, problem.parameters));
+    solution.assumptions.push_back(assumptions_of_case(contact, one, result, problem.parameters));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
       solution.periods.push_back(common_period(*two));
       solution.slow_limit_power.push_back(slow_limit_power(law, one, options));
@@ -393,10 +405,11 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
       solution.work_there_and_back.push_back(result.work_per_cycle * 2 *
                                              problem.parameters.excursion / distance);
     if (!warnings.empty()) continue;
-    const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
+    const ForceCurve* curve = contact.curve ? &*contact.curve : nullptr;
     warnings = warnings_of_path(drag->drag_velocity, drag->angular_frequency,
                                 spot_radius(problem.parameters, law, curve, result.indentation));
   }
+  solution.contact = std::move(contacts.front());
   for (const std::string& why : {dropped, unknown})
     if (!why.empty()) warnings.insert(warnings.begin(), why);
   solution.warnings.insert(solution.warnings.end(), warnings.begin(), warnings.end());
@@ -485,9 +498,9 @@ void fill_map(const DamperProblem& problem, const std::vector<double>& indentati
     }
 }
 
-}  // namespace
-
-DamperSolution solve(DamperProblem problem, const Context& context) {
+/// Checks a damper, and passes its largest amplitude to its surface. Returns the material of the
+/// surface.
+Material prepare(DamperProblem& problem) {
   const std::vector<double>&amplitudes = problem.normal_amplitude,
         &omega = problem.angular_frequency;
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
@@ -501,7 +514,15 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     surface->hold = problem.hold;
     material = surface->material;
   }
-  DamperSolution solution{solve(std::move(problem.contact), context)};
+  return material;
+}
+
+/// Computes the damper of a contact in one direction.
+DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const Material& material,
+                         const Context& context) {
+  const std::vector<double>&amplitudes = problem.normal_amplitude,
+        &omega = problem.angular_frequency;
+  DamperSolution solution{std::move(contact)};
   if (solution.contact.surface) problem.hold = solution.contact.hold;
   const ContactLaw& law = *solution.contact.law;
   require(solution.contact.points.size() == 1, "normal_force",
@@ -550,6 +571,24 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     if (of_surface) of_surface->stabilise(frequency);
   }
   return solution;
+}
+
+}  // namespace
+
+DamperSolution solve(DamperProblem problem, const Context& context) {
+  const Material material = prepare(problem);
+  ContactSolution contact = solve(std::move(problem.contact), context);
+  return damper_of(std::move(problem), std::move(contact), material, context);
+}
+
+std::vector<DamperSolution> solve_directions(DamperProblem problem, const Context& context) {
+  const Material material = prepare(problem);
+  std::vector<DamperSolution> solutions;
+  for (ContactSolution& contact : solve_directions(std::move(problem.contact), context)) {
+    DamperProblem one = problem;
+    solutions.push_back(damper_of(std::move(one), std::move(contact), material, context));
+  }
+  return solutions;
 }
 
 std::vector<std::string> warnings_of_path(double drag_velocity, double angular_frequency,

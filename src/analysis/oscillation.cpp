@@ -321,7 +321,8 @@ OscillationLoss loss_of(const OscillationOutcome& outcome) {
       .force = intervals.force,
       // The contacts at the largest and the smallest indentation do not count as nodes; they have
       // no tangential solve, except that at the smallest indentation under a drag.
-      .intervals = intervals.curve.samples.size() - 2};
+      .intervals = intervals.curve.samples.size() - 2,
+      .direction = intervals.direction};
   if (!outcome.bends_down()) {
     loss.small_amplitude_work = intervals.small_amplitude_work;
     loss.ratio = outcome.over(intervals.small_amplitude_work);

@@ -114,6 +114,7 @@ SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contac
   SlidingProblem problem = asked;
   if (contact.surface) problem.hold = contact.hold;
   SlidingSolution solution = solve(problem, *contact.law, contact.points.front());
+  for (SlidingPoint& point : solution.points) point.direction = contact.direction();
   if (!contact.surface) return solution;
   const std::size_t velocities = solution.points.size() / problem.normal_amplitude.size();
   for (std::size_t first = 0; first < solution.points.size(); first += velocities) {

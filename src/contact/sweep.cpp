@@ -27,8 +27,9 @@ constexpr double stick_tolerance = 1e-3;
 
 }  // namespace
 
-ForceSample force_sample(const NormalContactState& state, const Surface& surface,
-                         const Material& material, const SweepOptions& options) {
+std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
+                                       const Material& material, const SweepOptions& options,
+                                       const std::vector<double>& directions) {
   ForceSample sample;
   sample.indentation = state.indentation;
   if (options.contact.boundary == Boundary::periodic) sample.mean_gap = state.mean_gap;
@@ -36,6 +37,9 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
   sample.pressure = state.mean_pressure;
   sample.contact_area_fraction = state.contact_area_fraction;
   sample.converged = state.converged();
+  const bool sticks = options.stiffness && options.stick;
+  StickStiffness stick;
+  stick.xx = stick.xy = stick.yy = ForceSample::unknown;
   if (options.stiffness && state.converged()) {
     Field punch_pressure;
     sample.normal_stiffness =
@@ -43,22 +47,31 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
                          options.stick ? &punch_pressure : nullptr);
     sample.converged = !std::isnan(sample.normal_stiffness);
     if (options.stick && std::isfinite(sample.normal_stiffness)) {
-      StickOptions stick;
-      stick.tolerance = stick_tolerance;
-      stick.boundary = options.contact.boundary;
-      stick.on_progress = options.contact.on_progress;
-      const StickStiffness stiffness =
-          stick_stiffness(contact_set(state), surface.grid, material, stick, true,
-                          punch_pressure * material.modulus_ratio(), surface.communicator);
-      sample.tangential_stiffness = stiffness.xx;
-      sample.converged = sample.converged && stiffness.converged();
+      StickOptions solve;
+      solve.tolerance = stick_tolerance;
+      solve.boundary = options.contact.boundary;
+      solve.on_progress = options.contact.on_progress;
+      stick = stick_stiffness(contact_set(state), surface.grid, material, solve,
+                              directions == std::vector<double>{0},
+                              punch_pressure * material.modulus_ratio(), surface.communicator);
+      sample.converged = sample.converged && stick.converged();
     } else if (std::isfinite(material.tangential_modulus)) {
       // K_t = (G*/E*)K is exact for one circular contact and for ν = 0; about 1 % off for rough
       // contacts at ν = 0.3 (docs/theory.md, section 7).
       sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
     }
   }
-  return sample;
+  std::vector<ForceSample> samples(directions.size(), sample);
+  for (std::size_t k = 0; sticks && k < samples.size(); ++k) {
+    samples[k].direction = directions[k];
+    if (std::isfinite(stick.xx)) samples[k].tangential_stiffness = stick.along(directions[k]);
+  }
+  return samples;
+}
+
+ForceSample force_sample(const NormalContactState& state, const Surface& surface,
+                         const Material& material, const SweepOptions& options) {
+  return force_samples(state, surface, material, options, {options.direction}).front();
 }
 
 namespace {
@@ -98,7 +111,8 @@ void require_memory_of_sweep(const Surface& surface, const SweepOptions& options
                  groups.all());
 }
 
-using Samples = std::vector<std::optional<ForceSample>>;
+/// The samples of each load, one for each direction.
+using Samples = std::vector<std::optional<std::vector<ForceSample>>>;
 
 /// Gathers the samples of all groups of processes in every process.
 void gather(const Groups& groups, Samples& samples) {
@@ -110,15 +124,18 @@ void gather(const Groups& groups, Samples& samples) {
   std::string mine;
   if (groups.own().is_root())
     for (std::size_t load = 0; load < samples.size(); ++load)
-      if (samples[load]) {
-        const Found found{load, *samples[load]};
-        mine.append(reinterpret_cast<const char*>(&found), sizeof found);
-      }
+      if (samples[load])
+        for (const ForceSample& sample : *samples[load]) {
+          const Found found{load, sample};
+          mine.append(reinterpret_cast<const char*>(&found), sizeof found);
+        }
+  samples.assign(samples.size(), {});
   for (const std::string& others : groups.all().gather_all(mine))
     for (std::size_t at = 0; at < others.size(); at += sizeof(Found)) {
       Found found;
       std::memcpy(&found, others.data() + at, sizeof found);
-      samples[found.load] = found.sample;
+      if (!samples[found.load]) samples[found.load].emplace();
+      samples[found.load]->push_back(found.sample);
     }
 }
 
@@ -126,9 +143,19 @@ void gather(const Groups& groups, Samples& samples) {
 
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
+  return sweep_directions(surface, material, pressures, {options.direction}, options).front();
+}
+
+std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material& material,
+                                         const std::vector<double>& pressures,
+                                         const std::vector<double>& directions,
+                                         const SweepOptions& options) {
   const Groups groups = options.groups.value_or(Groups(surface.communicator, 1));
   collectively(groups.all(), [&] { surface.require_complete_rows("a contact calculation"); });
   validate(pressures);
+  require_that(!directions.empty(), "directions", "not given; give at least one");
+  for (const double direction : directions)
+    require(std::isfinite(direction), "direction", direction, "must be finite");
   require(options.concurrent_loads >= 0, "concurrent_loads", options.concurrent_loads,
           "must be >= 0");
 
@@ -161,10 +188,12 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
     const auto state =
         press(surface, material.contact_modulus, at_pressure(pressures[k]), inner.contact);
     if (state.termination == Termination::interrupted) return loop.stop();
-    const ForceSample sample = force_sample(state, surface, material, inner);
+    const std::vector<ForceSample> found =
+        force_samples(state, surface, material, inner, directions);
     // A sample whose stiffness solve was interrupted is dropped; it is not a failed load.
-    if (!surface.communicator.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
-    samples[k] = sample;
+    if (!surface.communicator.all_agree(!loop.stopped() || found.front().converged))
+      return loop.stop();
+    samples[k] = found;
     if (options.on_state && state.converged()) options.on_state(k, state);
   });
   if (groups.count() > 1) gather(groups, samples);
@@ -173,9 +202,11 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   curve.model = "bem";
   curve.nominal_area = surface.grid.area();
   curve.rms_height = height_statistics(surface).rms_height;
-  for (const auto& sample : samples)
-    if (sample) curve.samples.push_back(*sample);
-  return curve;
+  std::vector<ForceCurve> curves(directions.size(), curve);
+  for (const auto& found : samples)
+    for (std::size_t k = 0; found && k < curves.size(); ++k)
+      curves[k].samples.push_back((*found)[k]);
+  return curves;
 }
 
 }  // namespace salebra

@@ -169,10 +169,8 @@ class IntervalSolver {
     const StickStiffness stick =
         stick_stiffness(reached.contact, grid_, material_, options_.stick, options_.direction == 0,
                         Field(pressure * modulus_ratio));
-    const double c = std::cos(options_.direction), s = std::sin(options_.direction);
-    values.sample.tangential_stiffness =
-        options_.direction == 0 ? stick.xx
-                                : c * c * stick.xx + 2 * c * s * stick.xy + s * s * stick.yy;
+    values.sample.tangential_stiffness = stick.along(options_.direction);
+    values.sample.direction = options_.direction;
     values.sample.normal_stiffness = punch.normal_stiffness;
     if (punch.normal_stiffness > 0)
       values.ratio = values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
@@ -309,6 +307,7 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
   const bool drag = std::holds_alternative<Drag>(motion);
   const int count = options.intervals > 0 ? options.intervals : (drag ? 32 : 16);
   IntervalQuadratureResult result;
+  result.direction = options.direction;
   result.termination = Termination::converged;
   IntervalSolver solver(contact_sets, grid, material, options, result);
   SolvedContacts solved{gauss_nodes(count), {}, {}};

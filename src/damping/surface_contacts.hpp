@@ -135,6 +135,11 @@ class StiffnessRatio {
   double value_, slope_ = 0, bend_ = 0;
 };
 
+/// Direction of the tangential motion of a contact, rad: along x if its K_t has no direction.
+inline double direction_of(const ForceSample& sample) {
+  return std::isnan(sample.direction) ? 0 : sample.direction;
+}
+
 inline StiffnessRatio::Point point_of(const ForceSample& sample, double modulus_ratio) {
   const double ratio = sample.tangential_stiffness / (modulus_ratio * sample.normal_stiffness);
   return {sample.force, sample.converged ? ratio : std::numeric_limits<double>::quiet_NaN()};
@@ -158,9 +163,13 @@ inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double
 /// The contacts of one surface on one grid, solved when they are needed and then kept.
 class SurfaceContacts {
  public:
+  /// along_x_only: K_t is needed along x only, which halves the cost of the stick solves.
   SurfaceContacts(const Surface& surface, double contact_modulus,
-                  const NormalContactOptions& options)
-      : surface_(surface), contact_modulus_(contact_modulus), options_(options) {
+                  const NormalContactOptions& options, bool along_x_only = true)
+      : surface_(surface),
+        contact_modulus_(contact_modulus),
+        options_(options),
+        along_x_only_(along_x_only) {
     // A periodic surface at full contact has no indentation, so indentations must stay below this
     // limit.
     limit_ = std::numeric_limits<double>::infinity();
@@ -177,10 +186,12 @@ class SurfaceContacts {
 
   /// The indentation, m, at a pressure.
   double indentation_at(double pressure) {
+    if (const auto found = indentations_.find(pressure); found != indentations_.end())
+      return found->second;
     NormalContactState state =
         salebra::press(surface_, contact_modulus_, at_pressure(pressure), options_);
     take(state);
-    return last_at_;
+    return indentations_[pressure] = last_at_;
   }
 
   StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
@@ -191,23 +202,27 @@ class SurfaceContacts {
     return sample;
   }
 
-  /// The force and ρ = K_t/((G*/E*)K) at an indentation, K_t from a stick solve; NaN without
-  /// contact.
-  StiffnessRatio::Point ratio_at(double indentation, const Material& material) {
+  /// The force and ρ = K_t/((G*/E*)K) at an indentation, with K_t along a direction from a stick
+  /// solve; NaN without contact.
+  StiffnessRatio::Point ratio_at(double indentation, const Material& material, double direction) {
     StiffnessSample& sample = contact(indentation);
     if (!(sample.force > 0)) return {};
-    Field punch_pressure;
-    const NormalContactState state = stiffen(sample, &punch_pressure);
-    if (!converged_) return {};
-    StickOptions stick;
-    stick.tolerance = stick_tolerance;
-    stick.boundary = options_.boundary;
-    stick.on_progress = options_.on_progress;
-    const StickStiffness tangential =
-        stick_stiffness(contact_set(state), surface_.grid, material, stick, true,
-                        punch_pressure * material.modulus_ratio(), surface_.communicator);
-    converged_ = converged_ && tangential.converged();
-    return {sample.force, tangential.xx / (material.modulus_ratio() * sample.stiffness)};
+    if (!sticks_.contains(indentation)) {
+      Field punch_pressure;
+      const NormalContactState state = stiffen(sample, &punch_pressure);
+      if (!converged_) return {};
+      StickOptions stick;
+      stick.tolerance = stick_tolerance;
+      stick.boundary = options_.boundary;
+      stick.on_progress = options_.on_progress;
+      const StickStiffness tangential =
+          stick_stiffness(contact_set(state), surface_.grid, material, stick, along_x_only_,
+                          punch_pressure * material.modulus_ratio(), surface_.communicator);
+      converged_ = converged_ && tangential.converged();
+      sticks_[indentation] = tangential;
+    }
+    return {sample.force,
+            sticks_[indentation].along(direction) / (material.modulus_ratio() * sample.stiffness)};
   }
 
  private:
@@ -320,7 +335,11 @@ class SurfaceContacts {
   double contact_modulus_;
   NormalContactOptions options_;
   double limit_, peak_;
+  bool along_x_only_;
+  // Contacts by their indentation, and indentations by their pressure.
   std::map<double, StiffnessSample> known_;
+  std::map<double, StickStiffness> sticks_;
+  std::map<double, double> indentations_;
   // Pressures of the last two contacts; all processes agree on whether they exist.
   std::optional<Field> last_, before_;
   Field last_gap_;  // gaps of the last contact, valid until the next solve

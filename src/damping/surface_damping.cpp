@@ -118,6 +118,7 @@ class Load {
   bool follows_slip() const { return slip_.has_value(); }
   Hold hold() const { return hold_; }
   bool is_wide() const { return wide_; }
+  double direction() const { return detail::direction_of(sample_); }
   WideOscillation::Load load() const { return {sample_.pressure, sample_.force}; }
   double possible_amplitude() const { return possible_amplitude_; }
   bool usable() const {
@@ -144,13 +145,18 @@ class Load {
     interval_error_with_slip_ = loss.with_slip.by_intervals;
   }
 
-  void solve(const Surface& surface, const Progress& progress) {
+  NormalContactOptions contact_options(const Progress& progress) const {
     NormalContactOptions contact;
     contact.boundary = options_.boundary;
     contact.on_progress = progress;
     contact.tolerance = tolerance();
+    return contact;
+  }
+
+  /// Finds the loss on one grid of nx points along x, with contacts by contact_options() of a load
+  /// on this grid; loads in other directions use the same contacts.
+  void solve(SurfaceContacts& contacts_at, Index nx) {
     const bool first = values_.empty();
-    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
     const double center = contacts_at.indentation_at(sample_.pressure);
     if (first) {
       widen(contacts_at, center);
@@ -158,13 +164,15 @@ class Load {
       // depends on the grid. A curve whose K_t is (G*/E*)K, without a stick solve, keeps this
       // ratio.
       if (states_error() && std::abs(ratio_.middle() - 1) > 1e-9) {
-        const auto high = contacts_at.ratio_at(center + half_, material_);
-        const auto middle = contacts_at.ratio_at(center, material_);
-        ratio_ = {contacts_at.ratio_at(center - half_, material_), middle, high};
+        const auto at = [&](double indentation) {
+          return contacts_at.ratio_at(indentation, material_, direction());
+        };
+        const auto high = at(center + half_), middle = at(center);
+        ratio_ = {at(center - half_), middle, high};
       }
     }
     values_.push_back(integrate(contacts_at, center));
-    values_.back().points = surface.grid.nx;
+    values_.back().points = nx;
     values_.back().converged = values_.back().converged && contacts_at.usable();
   }
 
@@ -517,6 +525,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
                          const SurfaceDampingOptions& options) {
   SurfaceDamping result;
   result.hold = load.hold();
+  result.direction = load.direction();
   result.possible_amplitude = load.possible_amplitude();
   const auto& values = load.values();
   if (values.empty() || !load.usable()) return result;
@@ -608,8 +617,15 @@ Surface windowed(Surface surface) {
   return surface;
 }
 
-void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
+void validate(const std::vector<ForceCurve>& curves, const SurfaceDampingOptions& options) {
+  require_that(!curves.empty(), "curves", "not given; give at least one");
+  const ForceCurve& curve = curves.front();
   require(!curve.samples.empty(), "curve", 0, "loads given; compute at least one");
+  for (const ForceCurve& other : curves)
+    require_that(
+        curves.size() == 1 || std::ranges::equal(other.samples, curve.samples, {},
+                                                 &ForceSample::pressure, &ForceSample::pressure),
+        "curves", "have different loads; compute them together by sweep_directions()");
   for (const auto& [column, name] : {std::pair{&ForceSample::force, "force"},
                                      {&ForceSample::normal_stiffness, "normal_stiffness"}})
     require_that(std::ranges::any_of(
@@ -630,17 +646,23 @@ void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
           options.relative_error, "must lie between 0 and 1");
 }
 
+/// The wide oscillations of one direction, whose loads share their contacts.
+struct WideLoads {
+  std::vector<Load*> loads = {};
+  std::optional<WideOscillation> oscillation = {};
+};
+
 /// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
-/// processes.
-void solve_on(const Surface& fine, const std::vector<Load*>& all,
-              std::optional<WideOscillation>& oscillation, const std::vector<Load*>& wide,
-              const SurfaceDampingOptions& options) {
+/// processes. open: for each load, the loads of all directions, which share their contacts.
+void solve_on(const Surface& fine, const Material& material,
+              const std::vector<std::vector<Load*>>& all, std::vector<WideLoads>& wide,
+              bool along_x_only, const SurfaceDampingOptions& options) {
   const Communicator& communicator = fine.communicator;
   // The wide loads share their contacts and are one task, the last one.
-  std::vector<Load*> open = all;
-  std::erase_if(open, &Load::is_wide);
+  std::vector<std::vector<Load*>> open = all;
+  std::erase_if(open, [](const std::vector<Load*>& one) { return one.front()->is_wide(); });
   const std::size_t narrow = open.size();
-  if (narrow < all.size()) open.push_back(wide.front());
+  if (narrow < all.size()) open.emplace_back();
   // On a surface spread over processes, the messages of two simultaneous loads would be confused.
   const int wanted =
       communicator.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
@@ -659,13 +681,23 @@ void solve_on(const Surface& fine, const std::vector<Load*>& all,
     residual = report.residual;
     return loop.going_on();
   };
+  const auto contacts = [&](const NormalContactOptions& contact) {
+    return SurfaceContacts(fine, material.contact_modulus, contact, along_x_only);
+  };
   // The highest loads take longest, so they are solved first.
   loop.run(static_cast<Index>(open.size()), [&](Index turn) {
     const std::size_t at = open.size() - 1 - static_cast<std::size_t>(turn);
-    if (at < narrow) return open[at]->solve(fine, progress);
-    const std::vector<WideLoss> losses = oscillation->on(fine, progress);
-    for (std::size_t k = 0; k < wide.size(); ++k)
-      wide[k]->take(losses[k], *oscillation, fine.grid.nx);
+    if (at < narrow) {
+      SurfaceContacts contacts_at = contacts(open[at].front()->contact_options(progress));
+      for (Load* load : open[at]) load->solve(contacts_at, fine.grid.nx);
+      return;
+    }
+    SurfaceContacts contacts_at = contacts(wide.front().oscillation->contact_options(progress));
+    for (WideLoads& one : wide) {
+      const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
+      for (std::size_t k = 0; k < one.loads.size(); ++k)
+        one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx);
+    }
   });
   if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
 }
@@ -682,49 +714,86 @@ detail::RatioOfLoads ratios_of(const ForceCurve& curve, double modulus_ratio) {
   return solved ? detail::RatioOfLoads(points) : detail::RatioOfLoads();
 }
 
+/// Adds the error by the seam of a scan, from the loss `unseamed` without it. values: the losses on
+/// all grids.
+void add_seam(SurfaceDamping& result, const SurfaceDamping& unseamed,
+              const std::vector<GridValue>& values, const SurfaceDampingOptions& options) {
+  if (!result.converged || !unseamed.converged) return;
+  const GridValue& own = values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
+  const auto seam = [&](double without_seam, const KrigedWork& with_seam) {
+    return beyond_scatter(without_seam - with_seam.work, with_seam.deviation, with_seam.deviation);
+  };
+  result.error_without_slip.seam = seam(unseamed.work_per_cycle_without_slip, own);
+  result.error.seam = std::isnan(options.friction_coefficient)
+                          ? result.error_without_slip.seam
+                          : seam(unseamed.work_per_cycle, own.with_slip);
+}
+
 }  // namespace
 
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options) {
+  return surface_damping(surface, material, motion, std::vector{curve}, options).front();
+}
+
+std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
+                                                         const Material& material,
+                                                         const Oscillation& motion,
+                                                         const std::vector<ForceCurve>& curves,
+                                                         const SurfaceDampingOptions& options) {
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
-  validate(curve, options);
-  const Hold hold = detail::hold_of(curve, detail::normal_amplitude(motion), options.hold);
-  std::vector<Load> loads;
-  for (std::size_t k = 0; k < curve.samples.size(); ++k)
-    loads.emplace_back(material, motion, options, hold, curve, k);
-  std::vector<Load*> wide;
-  std::vector<WideOscillation::Load> wide_loads;
-  for (Load& load : loads)
-    if (load.is_wide() && load.usable()) {
-      wide.push_back(&load);
+  validate(curves, options);
+  const Hold hold = detail::hold_of(curves.front(), detail::normal_amplitude(motion), options.hold);
+  // The loads of each curve.
+  std::vector<std::vector<Load>> loads(curves.size());
+  std::vector<WideLoads> wide(curves.size());
+  bool along_x_only = true;
+  for (std::size_t d = 0; d < curves.size(); ++d) {
+    std::vector<WideOscillation::Load> wide_loads;
+    loads[d].reserve(curves[d].samples.size());
+    for (std::size_t k = 0; k < curves[d].samples.size(); ++k) {
+      Load& load = loads[d].emplace_back(material, motion, options, hold, curves[d], k);
+      along_x_only = along_x_only && load.direction() == 0;
+      if (!load.is_wide() || !load.usable()) continue;
+      wide[d].loads.push_back(&load);
       wide_loads.push_back(load.load());
     }
-  std::optional<WideOscillation> oscillation;
-  if (!wide.empty())
-    oscillation.emplace(material, motion, options, hold, wide_loads,
-                        ratios_of(curve, material.modulus_ratio()));
+    if (!wide_loads.empty())
+      wide[d].oscillation.emplace(material, motion, options, hold,
+                                  detail::direction_of(curves[d].samples.front()), wide_loads,
+                                  ratios_of(curves[d], material.modulus_ratio()));
+  }
 
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
+  const auto is_open = [&](const Load& load, int halving) {
+    const SurfaceDamping result = result_of(load, motion, options);
+    const bool known = !std::isnan(result.work_per_cycle);
+    const double work = known ? result.work_per_cycle : result.work_per_cycle_without_slip;
+    const ErrorBudget& error = known ? result.error : result.error_without_slip;
+    return halving <= options.refinements || !(error.total() <= options.relative_error * work);
+  };
   for (int halving = options.coarsen ? -1 : 0; halving <= halvings; ++halving) {
-    std::vector<Load*> open;
-    for (Load& load : loads) {
-      if (!load.usable()) continue;
-      const SurfaceDamping result = result_of(load, motion, options);
-      const bool known = !std::isnan(result.work_per_cycle);
-      const double work = known ? result.work_per_cycle : result.work_per_cycle_without_slip;
-      const ErrorBudget& error = known ? result.error : result.error_without_slip;
-      if (halving <= options.refinements || !(error.total() <= options.relative_error * work))
-        open.push_back(&load);
+    std::vector<std::vector<Load*>> open;
+    for (std::size_t k = 0; k < curves.front().samples.size(); ++k) {
+      std::vector<Load*> same;
+      bool any = false;
+      for (std::vector<Load>& of_direction : loads)
+        if (Load& load = of_direction[k]; load.usable()) {
+          same.push_back(&load);
+          any = any || is_open(load, halving);
+        }
+      if (any) open.push_back(std::move(same));
     }
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    solve_on(fine, open, oscillation, wide, options);
+    solve_on(fine, material, open, wide, along_x_only, options);
   }
-  std::vector<SurfaceDamping> results;
-  for (const Load& load : loads) results.push_back(result_of(load, motion, options));
+  std::vector<std::vector<SurfaceDamping>> results(curves.size());
+  for (std::size_t d = 0; d < curves.size(); ++d)
+    for (const Load& load : loads[d]) results[d].push_back(result_of(load, motion, options));
   if (!options.seam) return results;
   SurfaceDampingOptions without = options;
   without.hold = hold;
@@ -735,22 +804,10 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
   const bool free = *options.seam == SeamCheck::free;
   if (free) without.boundary = Boundary::free;
   const auto unseamed =
-      surface_damping(free ? surface : windowed(surface), material, motion, curve, without);
-  for (std::size_t k = 0; k < results.size(); ++k) {
-    SurfaceDamping& result = results[k];
-    const auto& values = loads[k].values();
-    if (!result.converged || !unseamed[k].converged) continue;
-    const GridValue& own =
-        values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
-    const auto seam = [&](double without_seam, const KrigedWork& with_seam) {
-      return beyond_scatter(without_seam - with_seam.work, with_seam.deviation,
-                            with_seam.deviation);
-    };
-    result.error_without_slip.seam = seam(unseamed[k].work_per_cycle_without_slip, own);
-    result.error.seam = std::isnan(options.friction_coefficient)
-                            ? result.error_without_slip.seam
-                            : seam(unseamed[k].work_per_cycle, own.with_slip);
-  }
+      surface_damping(free ? surface : windowed(surface), material, motion, curves, without);
+  for (std::size_t d = 0; d < curves.size(); ++d)
+    for (std::size_t k = 0; k < results[d].size(); ++k)
+      add_seam(results[d][k], unseamed[d][k], loads[d][k].values(), options);
   return results;
 }
 

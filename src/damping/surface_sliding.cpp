@@ -19,6 +19,7 @@
 namespace salebra {
 namespace {
 
+using detail::direction_of;
 using detail::KrigedStiffness;
 using detail::StiffnessRatio;
 using detail::StiffnessSample;
@@ -127,7 +128,8 @@ class SurfaceSlidingRun {
         motion_(motion),
         hold_(hold),
         oscillation_(Drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency}),
-        wide_(material, oscillation_, options_, hold, {{load.pressure, load.force}},
+        wide_(material, oscillation_, options_, hold, direction_of(load),
+              {{load.pressure, load.force}},
               detail::RatioOfLoads({detail::point_of(load, material.modulus_ratio())})) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
@@ -140,11 +142,13 @@ class SurfaceSlidingRun {
     // difference is smaller by the same factor.
     contact.tolerance =
         std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
-    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
+    const double direction = direction_of(load_);
+    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact, direction == 0);
     const double center = contacts_at.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
         first ? ratio_
-              : ratio_.scaled(contacts_at.ratio_at(center, material_).ratio / ratio_.middle());
+              : ratio_.scaled(contacts_at.ratio_at(center, material_, direction).ratio /
+                              ratio_.middle());
     std::vector<StiffnessSample> contacts;
     for (int k = 0; k <= count; ++k)
       contacts.push_back(contacts_at.at(center + half_ * std::cos(pi * k / count)));

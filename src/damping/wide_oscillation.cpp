@@ -66,12 +66,13 @@ SpringSum sum_over_springs(const ContactLaw& law, double lowest_contact, double 
 }  // namespace
 
 WideOscillation::WideOscillation(const Material& material, const Oscillation& motion,
-                                 const SurfaceDampingOptions& options, Hold hold,
+                                 const SurfaceDampingOptions& options, Hold hold, double direction,
                                  std::vector<Load> loads, RatioOfLoads of_curve)
     : material_(material),
       motion_(motion),
       options_(options),
       hold_(hold),
+      direction_(direction),
       loads_(std::move(loads)),
       ratio_(std::move(of_curve)),
       sticks_(!ratio_.empty()),
@@ -149,7 +150,7 @@ void WideOscillation::add_ratios(SurfaceContacts& contacts_at,
   const std::size_t quarter = (contacts.size() - 1) / 4;
   for (std::size_t k = 0; k < 4 * quarter; k += quarter)
     if (!ratio_.knows(contacts[k].force))
-      points.push_back(contacts_at.ratio_at(contacts[k].indentation, material_));
+      points.push_back(contacts_at.ratio_at(contacts[k].indentation, material_, direction_));
   ratio_.add(points);
 }
 
@@ -260,7 +261,8 @@ bool WideOscillation::begin(SurfaceContacts& contacts_at) {
 
 std::vector<StiffnessSample> WideOscillation::contacts(const Surface& surface,
                                                        const Progress& progress) {
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
+  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress),
+                              direction_ == 0);
   const bool first = begin(contacts_at);
   if (!(highest_ > lowest_) || !contacts_at.usable()) return {};
   std::vector<StiffnessSample> contacts = contacts_on(contacts_at, 32);
@@ -295,7 +297,7 @@ ResidualSurface loaded_by_motion(Surface surface, double contact_modulus, double
                 "; reduce the load or the normal amplitude");
     ResidualSurface residual = after_first_loading(surface, contact_modulus, load, options);
     if (!residual.converged()) return residual;
-    WideOscillation oscillation(material, motion, damping, Hold::force,
+    WideOscillation oscillation(material, motion, damping, Hold::force, 0,
                                 {{pressure, pressure * surface.grid.area()}}, {});
     const double peak =
         oscillation.peak_force(residual.surface, options.on_progress) / surface.grid.area();
@@ -306,8 +308,7 @@ ResidualSurface loaded_by_motion(Surface surface, double contact_modulus, double
   return {.surface = std::move(surface)};
 }
 
-std::vector<WideLoss> WideOscillation::on(const Surface& surface, const Progress& progress) {
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
+std::vector<WideLoss> WideOscillation::on(SurfaceContacts& contacts_at) {
   std::vector<WideLoss> losses(loads_.size());
   const bool first = begin(contacts_at);
   for (std::size_t k = 0; k < loads_.size(); ++k)

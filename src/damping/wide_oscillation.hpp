@@ -45,15 +45,18 @@ class WideOscillation {
   struct Load {
     double pressure, force;
   };
+  /// direction    of the tangential motion, from the x axis, rad
   /// loads        from the lowest to the highest
   /// of_curve     K_t of the curve, if it comes from stick solves; otherwise empty, and ρ = 1
   WideOscillation(const Material& material, const Oscillation& motion,
-                  const SurfaceDampingOptions& options, Hold hold, std::vector<Load> loads,
-                  RatioOfLoads of_curve);
+                  const SurfaceDampingOptions& options, Hold hold, double direction,
+                  std::vector<Load> loads, RatioOfLoads of_curve);
 
   /// The losses on one grid. The first grid chooses the range of the contacts and their number; on
-  /// every other grid half as many contacts change the loss of the first grid.
-  std::vector<WideLoss> on(const Surface& surface, const Progress& progress);
+  /// every other grid half as many contacts change the loss of the first grid. `contacts_at` are
+  /// the contacts of this grid, with contact_options().
+  std::vector<WideLoss> on(SurfaceContacts& contacts_at);
+  NormalContactOptions contact_options(const Progress& progress) const;
   /// Contacts of the law of one load on one grid, in 32 intervals, from the highest to the lowest;
   /// empty if the motion presses beyond full contact or a contact did not converge.
   std::vector<StiffnessSample> contacts(const Surface& surface, const Progress& progress);
@@ -68,7 +71,6 @@ class WideOscillation {
   double window() const { return (highest_ - lowest_) / 2; }
 
  private:
-  NormalContactOptions contact_options(const Progress& progress) const;
   bool begin(SurfaceContacts& contacts_at);
   void find_range(SurfaceContacts& contacts_at);
   bool reach(SurfaceContacts& contacts_at, std::vector<StiffnessSample>& contacts,
@@ -85,6 +87,7 @@ class WideOscillation {
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   Hold hold_;
+  double direction_;
   std::vector<Load> loads_;
   RatioOfLoads ratio_;
   bool sticks_;

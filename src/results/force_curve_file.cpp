@@ -25,6 +25,22 @@ bool complete(const std::vector<double>& values) {
   return std::ranges::none_of(values, [](double value) { return std::isnan(value); });
 }
 
+/// Names the direction of K_t, if it comes from stick solves. Files of salebra 1.0 and 2.0 do not
+/// name it; it is x. K_t = (G*/E*)K, whose ratio is the same at all loads, has no direction.
+ForceCurve with_direction(ForceCurve curve) {
+  if (curve.model != "bem" || known(curve.column(&ForceSample::direction))) return curve;
+  double low = HUGE_VAL, high = 0;
+  for (const ForceSample& sample : curve.samples)
+    if (const double ratio = sample.tangential_stiffness / sample.normal_stiffness;
+        std::isfinite(ratio)) {
+      low = std::min(low, ratio);
+      high = std::max(high, ratio);
+    }
+  if (high > (1 + 1e-6) * low)
+    for (ForceSample& sample : curve.samples) sample.direction = 0;
+  return curve;
+}
+
 }  // namespace
 
 void write_force_curve(ResultGroup& group, const ForceCurve& curve,
@@ -36,8 +52,10 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
     const std::string name(meaning.name), units(si_unit(meaning.dimension)),
         long_name(meaning.long_name);
     if (coordinate.empty()) {
+      // A curve of several directions has each load several times.
       const bool orders =
-          meaning.dimension == Dimension::pressure || meaning.dimension == Dimension::force;
+          (meaning.dimension == Dimension::pressure || meaning.dimension == Dimension::force) &&
+          by_direction(curve).size() == 1;
       if (orders && complete(values)) {
         group.coordinate(name, values, units, long_name);
         coordinate = name;
@@ -129,6 +147,7 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   if (study && reader.has("surface/rms_height"))
     if (const auto heights = reader.numbers("surface/rms_height"); heights.size() == surfaces)
       for (std::size_t i = 0; i < surfaces; ++i) curves[i].rms_height = heights[i];
+  std::ranges::transform(curves, curves.begin(), with_direction);
   return curves;
 }
 
@@ -144,7 +163,7 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
 std::vector<ForceCurve> read_force_curves(const std::filesystem::path& file) {
   const detail::InputFile input(file);
   if (input.is_hdf5()) return read_force_curves(ResultReader(file));
-  return {detail::read_text_curve(file, detail::file_content(input))};
+  return {with_direction(detail::read_text_curve(file, detail::file_content(input)))};
 }
 
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
@@ -174,7 +193,7 @@ void require_curve_name(const std::filesystem::path& file) {
 ForceCurve read_force_curve(const std::filesystem::path& file) {
   const detail::InputFile input(file);
   if (input.is_hdf5()) return read_force_curve(ResultReader(file));
-  return detail::read_text_curve(file, detail::file_content(input));
+  return with_direction(detail::read_text_curve(file, detail::file_content(input)));
 }
 
 }  // namespace salebra

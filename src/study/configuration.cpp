@@ -426,6 +426,9 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
                 fmt::format("{} must lie between 0 and 1, such as \"5%\"", *error));
     configuration.relative_error = *error;
   }
+  if (const auto direction = table.text("direction"))
+    configuration.direction =
+        table.located([&] { return direction_choice(*direction, "direction"); });
   configuration.seam = enumerated<SeamCheck>(table, "seam_error");
   table.require_no_other_keys();
 }

@@ -103,6 +103,7 @@ ModelResult boundary_elements(ModelWork& work) {
   sweep.contact.tolerance = work.configuration.tolerance;
   sweep.contact.on_progress = work.progress;
   sweep.stick = stick_solves(work.configuration);
+  sweep.direction = work.directions.front();
   realisation.spots.resize(work.pressures.size());
   if (work.configuration.flow_factors) realisation.flow.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
@@ -110,14 +111,20 @@ ModelResult boundary_elements(ModelWork& work) {
                                                          Boundary::periodic, surface.communicator),
                                            surface.grid);
     if (work.configuration.flow_factors)
-      if (const FlowFactors flow = flow_factors(state, surface.grid); flow.converged())
+      if (const FlowFactors flow = flow_factors(state, surface.grid, {.lay_angle = work.lay_angle});
+          flow.converged())
         realisation.flow[k] = flow;
     if (realisation.picture.empty()) return;
     const std::scoped_lock lock(picture_guard);
     realisation.picture.add_contact(std::int16_t(k), state, surface);
   };
   if (work.configuration.adhesion) return adhesive_elements(work, sweep);
-  return {.curve = sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
+  std::vector<ForceCurve> curves = sweep_directions(surface, work.configuration.material,
+                                                    work.pressures, work.directions, sweep);
+  for (std::size_t k = 1; k < curves.size(); ++k)
+    realisation.other_directions.push_back(
+        {.model = ContactModel::bem, .curve = std::move(curves[k])});
+  return {.curve = std::move(curves.front())};
 }
 
 ModelResult statistical_summits(ModelWork& work) {

@@ -19,12 +19,18 @@ struct ModelWork {
   const SummitList& summits;
   const std::vector<RoughnessShell>& shells;  ///< for Persson's theory; empty if not requested
   const std::vector<double>& pressures;
+  const std::vector<double>& directions;  ///< of the tangential motion, from the x axis, rad
+  double lay_angle;                       ///< of the flow factors, rad; NaN: no lay
   /// Has the statistics of the surface. The boundary-element model adds its contact patches, and
   /// marks the cells in contact in the picture.
   Realisation& realisation;
   /// Progress of this model. After a stop the model throws Interrupted or returns any result.
   Progress progress;
 };
+
+/// Direction of the lay of a surface of a study, from the x axis, rad; NaN without a lay.
+/// Collective.
+double lay_angle_of(const StudyConfiguration& configuration, const Surface& surface);
 
 /// The modes of the surface, grouped in rings of the wavenumber. All processes must call.
 std::vector<RoughnessShell> shells_of(const Surface& surface);

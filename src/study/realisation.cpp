@@ -117,32 +117,36 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
   return points;
 }
 
-/// In the result of the boundary-element model, replaces losses computed from the curve by losses
-/// from contacts solved inside the oscillation.
-void resolve_damping(ModelResult& result, const Surface& surface,
+/// In the results of the boundary-element model in all directions, replaces losses computed from the
+/// curve by losses from contacts solved inside the oscillation.
+void resolve_damping(const std::vector<ModelResult*>& results, const Surface& surface,
                      const StudyConfiguration& configuration, std::uint64_t seed,
                      const Progress& progress) {
   SurfaceDampingOptions options = surface_damping_options(configuration, surface.grid, seed);
   options.on_progress = progress;
   options.friction_coefficient = configuration.known.friction_coefficient;
   options.excursion = configuration.known.excursion;
-  const std::vector<SurfaceDamping> resolved =
-      surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
+  std::vector<ForceCurve> curves;
+  for (const ModelResult* result : results) curves.push_back(result->curve);
+  const std::vector<std::vector<SurfaceDamping>> resolved =
+      surface_damping(surface, configuration.material, configuration.motion, curves, options);
   // In a mean over surfaces large errors average out. A study of a single surface drops a loss that
   // does not exceed its error.
   const bool alone = detail::seeds_of(configuration).size() == 1;
   const bool known = why_loss_unknown(motion_of(configuration.motion), configuration.known).empty();
-  for (std::size_t k = 0; k < resolved.size(); ++k) {
-    DampingPoint& point = result.damping[k];
-    point.mean_force = resolved[k].mean_force;
-    point.max_force = resolved[k].max_force;
-    point.contact_time = resolved[k].contact_time;
-    point.possible_amplitude = resolved[k].possible_amplitude;
-    Loss& loss = point;
-    loss = resolved[k];
-    if (alone) loss.drop_uncertain();
-    if (!known) loss.forget();
-  }
+  for (std::size_t d = 0; d < results.size(); ++d)
+    for (std::size_t k = 0; k < resolved[d].size(); ++k) {
+      const SurfaceDamping& found = resolved[d][k];
+      DampingPoint& point = results[d]->damping[k];
+      point.mean_force = found.mean_force;
+      point.max_force = found.max_force;
+      point.contact_time = found.contact_time;
+      point.possible_amplitude = found.possible_amplitude;
+      Loss& loss = point;
+      loss = found;
+      if (alone) loss.drop_uncertain();
+      if (!known) loss.forget();
+    }
 }
 
 void require_converged(const ForceCurve& curve, const StudyConfiguration& configuration) {
@@ -314,12 +318,16 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
     realisation.picture.mapped_load = Index(pressures.size() / 2);
   }
 
+  const std::vector<double> directions = directions_of(configuration, surface);
+  const double lay_angle =
+      configuration.flow_factors ? detail::lay_angle_of(configuration, surface) : 0;
   std::vector<RoughnessShell> shells;
   if (configuration.has(ContactModel::persson)) shells = detail::shells_of(surface);
 
   for (const StudyModel& model : models) {
     const Progress share = part(model.seconds_per_cell);
-    detail::ModelWork work{configuration, surface, summits, shells, pressures, realisation, share};
+    detail::ModelWork work{configuration, surface,   summits,     shells, pressures,
+                           directions,    lay_angle, realisation, share};
     const bool bem = model.id == ContactModel::bem;
     ModelResult result;
     if (bem)
@@ -331,9 +339,12 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
     if (!communicator.all_agree(!stopped)) throw Interrupted("study: interrupted");
     result.model = model.id;
     if (bem) require_converged(result.curve, configuration);
-    analyse(result, configuration, scale);
+    std::vector<ModelResult*> results{&result};
+    if (bem)
+      for (ModelResult& other : realisation.other_directions) results.push_back(&other);
+    for (ModelResult* one : results) analyse(*one, configuration, scale);
     if (bem && configuration.intervals != 0 && !configuration.adhesion)
-      resolve_damping(result, surface, configuration, seed, share);
+      resolve_damping(results, surface, configuration, seed, share);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

@@ -272,6 +272,7 @@ void write_solution(Table table, const StudyResult& result, const StudySolution&
                                      {"regime", &regimes}})
     table.put(find_quantity(name), *values, {"pressure"});
   ResultGroup& group = table.group();
+  if (!std::isnan(answer.direction)) group.attribute("direction", answer.direction);
   group.attribute("validity", std::string(name_of(answer.validity)));
   group.attribute("verdicts", in_words(answer.verdicts));
   group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");
@@ -421,6 +422,17 @@ void write_picture(ResultGroup group, const SurfacePicture& picture) {
 
 /// Writes the groups of one point of the parameter grid. where: path in front of their names ("" or
 /// "points/3/").
+/// Writes the results that depend on the direction of the tangential motion, in a further direction.
+void write_direction(ResultFile& output, const std::string& where, const StudyResult& result) {
+  const auto table = [&](const char* name) { return Table(output.group(where + name)); };
+  write_curves(table("curve"), result);
+  if (result.configuration.adhesion) return;
+  const StudySolution answer = solution_of(result);
+  write_damping(table("damping"), result);
+  write_solution(table("solution"), result, answer);
+  write_assumptions(output.group(where + "assumptions"), result, answer);
+}
+
 void write_study_groups(ResultFile& output, const std::string& where, const StudyResult& result) {
   const auto table = [&](const char* name) { return Table(output.group(where + name)); };
   write_surfaces(table("surface"), result);
@@ -441,6 +453,9 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;
   if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
+  const std::vector<StudyResult> directions = result.in_directions();
+  for (std::size_t k = 1; k < directions.size(); ++k)
+    write_direction(output, fmt::format("{}directions/{}/", where, k), directions[k]);
 }
 
 /// Writes the main results of several points of the parameter grid in one group.

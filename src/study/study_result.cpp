@@ -47,6 +47,25 @@ const StatedNumber* stated_number(std::string_view name) {
 
 }  // namespace
 
+double StudyResult::direction() const {
+  if (realisations.empty()) return ForceSample::unknown;
+  return realisations.front().of(ContactModel::bem).curve.direction();
+}
+
+std::vector<StudyResult> StudyResult::in_directions() const {
+  std::vector<StudyResult> results{*this};
+  const std::size_t others =
+      realisations.empty() ? 0 : realisations.front().other_directions.size();
+  for (std::size_t k = 0; k < others; ++k) {
+    StudyResult& other = results.emplace_back(*this);
+    for (Realisation& realisation : other.realisations)
+      realisation.of(ContactModel::bem) = realisation.other_directions.at(k);
+  }
+  for (StudyResult& result : results)
+    for (Realisation& realisation : result.realisations) realisation.other_directions.clear();
+  return results;
+}
+
 EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {
   std::vector<double> values;
   for (const Realisation& realisation : realisations) values.push_back(number(realisation));

@@ -28,6 +28,7 @@ ForceCurve mean_curve(const StudyResult& result) {
     sample.force = sample.pressure * result.grid.area();
     sample.normal_stiffness = normal[k].mean;
     sample.tangential_stiffness = tangential[k].mean;
+    sample.direction = result.direction();
     sample.contact_area_fraction = area[k].mean;
     // The mean gap should decrease with the pressure. It may not if some surfaces did not converge,
     // since then the means are over different surfaces; such a sample is dropped.
@@ -88,6 +89,7 @@ StudySolution solution_of(const StudyResult& result) {
       .slip_share = std::vector<double>(count, ContactParameters::unknown),
       .thermal_conductance = result.conductance(&Conductances::thermal_conductance),
       .electrical_conductance = result.conductance(&Conductances::electrical_conductance),
+      .direction = result.direction(),
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
       .assumptions = std::vector<Assumptions>(count)};
   if (configuration.adhesion) return solution;

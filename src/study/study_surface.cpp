@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -17,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "contact_models.hpp"
 #include "surface/plausibility.hpp"
 
 namespace salebra {
@@ -87,23 +89,59 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
                                       : ""));
 }
 
+/// The lay of the surfaces of a study. That of a recipe is known, so no surface has a lay by chance.
+SurfaceLay lay_of(const StudyConfiguration& configuration, const Surface& surface) {
+  const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  if (recipe == nullptr) return surface_lay(surface);
+  const Anisotropy& stretch = recipe->textures.front().lay;
+  SurfaceLay lay;
+  const double peklenik = stretch.peklenik();
+  lay.ratio = lay.ratio_low = lay.ratio_high = std::max(peklenik, 1 / peklenik);
+  lay.angle = stretch.angle + (peklenik < 1 ? std::numbers::pi / 2 : 0);
+  lay.angle_error = 0;
+  lay.significant = lay.ratio > 1;
+  return lay;
+}
+
 /// Warns of a lay and of skew heights, on which the results of these models depend.
 void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration,
                  StudyLoads& loads) {
   const bool theories = std::ranges::any_of(
       configuration.models, [](ContactModel model) { return model != ContactModel::bem; });
-  std::string by_lay =
-      "the tangential stiffness and the damping constant of boundary elements are those of motion "
-      "along x; along and across the lay they differ";
-  if (theories) by_lay += ". The other models assume an isotropic surface";
+  const bool stick = stick_solves(configuration);
+  std::string by_lay;
+  if (!stick)
+    by_lay =
+        "the tangential stiffness and the damping constant are those of an isotropic surface, "
+        "(G*/E*)K; along and across the lay they differ, as stick solves show";
+  if (theories)
+    by_lay += std::string(by_lay.empty() ? "" : ". ") +
+              "the models other than boundary elements assume an isotropic surface";
   std::ranges::move(
       warnings_of_lay(
-          surface_lay(surface), significant_skewness(surface), by_lay,
+          lay_of(configuration, surface), significant_skewness(surface), by_lay,
           theories ? "the models other than boundary elements assume Gaussian heights" : ""),
       std::back_inserter(loads.warnings));
 }
 
 }  // namespace
+
+double detail::lay_angle_of(const StudyConfiguration& configuration, const Surface& surface) {
+  const SurfaceLay lay = lay_of(configuration, surface);
+  return lay.found() ? lay.angle : SurfaceLay::unknown;
+}
+
+std::vector<double> directions_of(const StudyConfiguration& configuration, const Surface& surface) {
+  const bool chosen = configuration.direction != DirectionChoice(LayDirection::automatic);
+  require_that(stick_solves(configuration) || !chosen, "direction",
+               "given without stick solves: (G*/E*)K has no direction; leave it out");
+  if (!stick_solves(configuration) || (configuration.adhesion && !chosen)) return {0};
+  std::vector<double> directions =
+      directions_of(configuration.direction, lay_of(configuration, surface));
+  require(!configuration.adhesion || directions.size() == 1, "direction", "both",
+          "gives two directions; a study with adhesion takes one");
+  return directions;
+}
 
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& communicator) {
   StudyLoads loads{.pressures = configuration.pressures};

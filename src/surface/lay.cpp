@@ -9,6 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/crop.hpp>
 #include <salebra/surface/lay.hpp>
@@ -17,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "base/printable.hpp"
 #include "neighbour_rows.hpp"
 
 namespace salebra {
@@ -294,6 +296,66 @@ double significant_skewness(const Surface& surface) {
     }
   const double deviation = std::sqrt(6 * std::max(sum, points)) / points;
   return std::abs(skewness) > 3 * deviation ? skewness : 0;
+}
+
+namespace {
+
+/// Why a surface has no direction across or along a lay.
+std::string why_no_lay(const SurfaceLay& lay) {
+  const std::string way = "give an angle instead, such as 30deg";
+  if (std::isnan(lay.ratio))
+    return fmt::format(
+        "needs a lay, which cannot be found on a flat surface or one with fewer than "
+        "{} points along a side; {}",
+        least_points, way);
+  return fmt::format(
+      "needs a surface with a lay, a significant ratio of slopes above {}; that of this surface is "
+      "{:.3g} ({:.3g} to {:.3g}); {}",
+      least_ratio, lay.ratio, lay.ratio_low, lay.ratio_high, way);
+}
+
+}  // namespace
+
+std::string direction_in_words(double direction) {
+  if (direction == 0) return "along x";
+  if (direction == pi / 2) return "along y";
+  return fmt::format("at {:.3g}° to x", direction * 180 / pi);
+}
+
+DirectionChoice direction_choice(std::string_view text, std::string_view field) {
+  if (const auto named = parse_enum<LayDirection>(std::string(text))) return *named;
+  const bool number = text.find_first_of("0123456789") != std::string_view::npos;
+  require(number, field, fmt::format("'{}'", printable(text)),
+          "must be across, along, both, or an angle from the x axis with its unit, such as 30deg");
+  return parse_quantity(text, Dimension::angle, field);
+}
+
+std::vector<double> directions_of(const DirectionChoice& choice, const SurfaceLay& lay) {
+  const auto folded = [](double angle) {
+    const double rest = std::fmod(angle, pi);
+    return rest < 0 ? rest + pi : rest;
+  };
+  if (const double* angle = std::get_if<double>(&choice)) {
+    require(std::isfinite(*angle), "direction", *angle, "must be finite");
+    return {folded(*angle)};
+  }
+  const LayDirection named = std::get<LayDirection>(choice);
+  if (!lay.found()) {
+    if (named == LayDirection::automatic) return {0};
+    require(false, "direction", name_of(named), why_no_lay(lay));
+  }
+  const double along = folded(lay.angle), across = folded(lay.angle + pi / 2);
+  if (named == LayDirection::across) return {across};
+  if (named == LayDirection::along) return {along};
+  return {across, along};
+}
+
+std::vector<double> directions_of(const DirectionChoice& choice, const Surface& surface) {
+  if (std::holds_alternative<double>(choice)) return directions_of(choice, SurfaceLay{});
+  // Only a complete surface has a spectrum; the contact calculation will say why it is refused.
+  if (choice == DirectionChoice(LayDirection::automatic) && surface.undefined_points() > 0)
+    return {0};
+  return directions_of(choice, surface_lay(surface));
 }
 
 std::vector<std::string> warnings_of_lay(const SurfaceLay& lay, double skewness,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -133,4 +134,40 @@ TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[a
   CHECK_THROWS_AS(contact.law->force(0), Interrupted);
   CHECK_THROWS_AS(law_of(IndenterContact{paraboloid_profile(1e-2), body, {}}, context)->force(1e-6),
                   Interrupted);
+}
+
+TEST_CASE("A curve of two directions makes two solutions, and one where a direction is chosen",
+          "[analysis]") {
+  ForceCurve across = power_curve(), along = across;
+  for (ForceSample& sample : across.samples) sample.direction = 1.5;
+  for (ForceSample& sample : along.samples) {
+    sample.direction = 0.1;
+    sample.tangential_stiffness *= 0.8;
+  }
+  // Files list the loads in order, so that rows of both directions alternate.
+  ForceCurve both = joined({across, along});
+  std::ranges::stable_sort(both.samples, {}, &ForceSample::force);
+  const std::vector<ForceCurve> parts = by_direction(both);
+  REQUIRE(parts.size() == 2);
+  CHECK(parts[0].direction() == 1.5);
+  CHECK(parts[1].column(&ForceSample::tangential_stiffness) ==
+        along.column(&ForceSample::tangential_stiffness));
+  CHECK(by_direction(power_curve()).size() == 1);
+
+  CurveContact contact{both, body.modulus_ratio(), {ControlQuantity::normal_force, {1e-3}}, "it"};
+  const std::vector<ContactSolution> solutions = solve_directions(contact);
+  REQUIRE(solutions.size() == 2);
+  const double indentation = indentation_of(solutions[0]);
+  CHECK(solutions[0].direction() == 1.5);
+  CHECK(solutions[1].law->tangential_stiffness(indentation) ==
+        Approx(0.8 * solutions[0].law->tangential_stiffness(indentation)).epsilon(1e-12));
+  CHECK_THAT(refusal([&] { return solve(contact); }), Catch::Contains("direction"));
+  contact.direction = 0.1;
+  CHECK(solve(contact).direction() == 0.1);
+  contact.direction = 0.2;
+  CHECK_THAT(refusal([&] { return solve(contact); }),
+             Catch::Contains("direction: 11.4592deg: is not in the curve, which has 85.9437deg and "
+                             "5.72958deg"));
+  contact.direction = LayDirection::across;
+  CHECK_THAT(refusal([&] { return solve(contact); }), Catch::Contains("needs a surface"));
 }

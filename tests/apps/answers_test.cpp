@@ -408,6 +408,7 @@ TEST_CASE("Files of 0.1.0 are read as their table says", "[former]") {
   Table().check("former.txt");
 }
 TEST_CASE("generate answers what its table says", "[generate]") { Table().check("generate.txt"); }
+TEST_CASE("Directions are those of their table", "[direction]") { Table().check("direction.txt"); }
 TEST_CASE("joint answers what its table says", "[joint]") { Table().check("joint.txt"); }
 TEST_CASE("oscillate answers what its table says", "[oscillate]") {
   Table().check("oscillate.txt");

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/lay.hpp>
@@ -288,6 +289,35 @@ TEST_CASE("Only a lay and skew heights that matter are warned of", "[lay]") {
   CHECK(lay_in_words(lay) == "ground-like: lay 0° from x, above 5 to 1");
   lay.ratio = 1.4;
   CHECK_FALSE(lay.found());
+}
+
+TEST_CASE("Directions are angles, or those of a lay, which the surface must have", "[lay]") {
+  const SurfaceLay lay{.ratio = 6, .ratio_low = 5, .ratio_high = 7, .angle = 0.2, .significant = true};
+  const SurfaceLay none{.ratio = 1.1, .ratio_low = 1, .ratio_high = 1.3};
+  using enum LayDirection;
+  CHECK(directions_of(automatic, lay) == std::vector<double>{0.2 + pi / 2, 0.2});
+  CHECK(directions_of(both, lay) == directions_of(automatic, lay));
+  CHECK(directions_of(across, lay) == std::vector<double>{0.2 + pi / 2});
+  CHECK(directions_of(along, lay) == std::vector<double>{0.2});
+  CHECK(directions_of(automatic, none) == std::vector<double>{0});
+  for (const LayDirection direction : {across, along, both}) {
+    CHECK_THROWS_WITH(directions_of(direction, none),
+                      Catch::Contains("ratio of slopes above 1.5; that of this surface is 1.1 (1 to 1.3)"));
+    CHECK_THROWS_WITH(directions_of(direction, SurfaceLay{}), Catch::Contains("cannot be found"));
+  }
+  // Opposite directions are the same.
+  CHECK(directions_of(-pi / 4, none).front() == Approx(3 * pi / 4).epsilon(1e-15));
+  CHECK(directions_of(3 * pi, none).front() == Approx(0).margin(1e-14));
+  CHECK_THROWS_AS(directions_of(std::nan(""), none), InvalidInput);
+  CHECK(direction_choice("across", "direction") == DirectionChoice(across));
+  CHECK(direction_choice("auto", "direction") == DirectionChoice(automatic));
+  CHECK(std::get<double>(direction_choice("30deg", "direction")) == Approx(pi / 6));
+  CHECK_THROWS_WITH(direction_choice("upwards", "--direction"),
+                    Catch::Contains("--direction: 'upwards': must be across, along, both, or an angle"));
+  CHECK_THROWS_AS(direction_choice("30mm", "direction"), InvalidInput);
+  CHECK(direction_in_words(0) == "along x");
+  CHECK(direction_in_words(pi / 2) == "along y");
+  CHECK(direction_in_words(pi / 6) == "at 30° to x");
 }
 
 TEST_CASE("The skewness of a few Gaussian hills is chance, that of a worn surface is not",

@@ -15,6 +15,7 @@
 #include <salebra/contact/operating_point.hpp>
 #include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/surface/lay.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,6 +55,8 @@ struct CurveContact {
   double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t
   OperatingPoints at;
   std::string source = {};  ///< name of the curve in messages, e.g. its file
+  /// Which of the directions of its K_t to use: an angle, or `automatic` for all of them.
+  DirectionChoice direction = LayDirection::automatic;
 };
 
 /// A surface, whose contact law comes from a sweep of thirteen loads about each pressure, and of
@@ -67,6 +70,8 @@ struct SurfaceContact {
   std::optional<double> hardness = {};
   double normal_amplitude = 0;  ///< amplitude of the oscillation about each pressure, m
   Hold hold = Hold::automatic;  ///< the mean value that this oscillation keeps
+  /// Direction of the tangential motion, from the x axis, rad or by the lay of the surface.
+  DirectionChoice direction = 0.0;
 };
 
 using ContactProblem =
@@ -86,6 +91,8 @@ struct ContactSolution {
   /// Index of the sample of the curve whose load is nearest to the first operating point.
   std::size_t load() const;
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
+  /// Direction of K_t of the law, from the x axis, rad; NaN if K_t has no direction.
+  double direction() const { return curve ? curve->direction() : ForceSample::unknown; }
   /// Adds to `parameters` those that follow from the law, the curve and the first loading, at the
   /// mean indentation `indentation` and at the indentation `deepest`.
   ContactParameters parameters_at(ContactParameters parameters, double indentation,
@@ -101,12 +108,18 @@ struct ContactSolution {
 ///
 ///     ContactSolution contact = solve(SurfaceContact{surface, material, {1e6, 5e6}});
 ///
-/// throws  InvalidInput for values that are not > 0, for operating points outside a curve, and
-///         wherever the laws, after_first_loading() and sweep_pressures() do; NotConverged,
-///         Interrupted
+/// throws  InvalidInput for values that are not > 0, for operating points outside a curve, for
+///         several directions, and wherever the laws, after_first_loading() and sweep_pressures()
+///         do; NotConverged, Interrupted
 /// cost    for a surface some thirteen contacts in full stick for each pressure, and the first
 ///         loading
 ContactSolution solve(ContactProblem problem, const Context& context = {});
+/// The same in each direction of the tangential motion that the problem asks for: one solution for
+/// each, `across` before `along`. Contacts are solved once for all directions.
+///     std::vector<ContactSolution> contacts = solve_directions(
+///         SurfaceContact{.surface = surface, .material = material, .pressure = {1e6},
+///                        .direction = LayDirection::both});
+std::vector<ContactSolution> solve_directions(ContactProblem problem, const Context& context = {});
 
 /// Returns the law alone, for a motion with its own indentations; operating points are ignored.
 /// Throws InvalidInput for a surface, which has no law before a sweep.

@@ -45,9 +45,10 @@ constexpr void describe(auto&& visit, std::type_identity<DampingProblem>) {
         Quantity{"force_amplitude", Dimension::force, "amplitude of the normal force"});
 }
 
-/// Damping of a contact. Each list has one entry per case, or is empty if it does not apply.
+/// Damping of a contact. Each list has one entry per case, or is empty if it does not apply. If the
+/// contact asks for several directions, all cases in the first direction come first, and so on.
 struct DampingSolution {
-  ContactSolution contact;
+  ContactSolution contact;  ///< in the first direction
   std::vector<Motion> motions = {};
   /// Loss of each case with its numerical error, including slip if a coefficient of friction is
   /// given (analysis/slip.hpp). It comes from the springs of a law or, for a surface, from contacts
@@ -186,6 +187,9 @@ constexpr void describe(auto&& visit, std::type_identity<DamperSolution>) {
 ///         amplitudes or frequencies, a slope or velocity that is not > 0, and wherever the
 ///         functions of damper.hpp do
 DamperSolution solve(DamperProblem problem, const Context& context = {});
+/// The same in each direction of the tangential motion that the contact asks for: one solution for
+/// each, `across` before `along`. The law of a surface is computed once.
+std::vector<DamperSolution> solve_directions(DamperProblem problem, const Context& context = {});
 
 /// Partial slip of a contact under tangential oscillations, with or without a normal oscillation.
 struct JointProblem {

@@ -19,10 +19,11 @@ struct SweepOptions {
   NormalContactOptions contact = {};
   /// Computes K by a punch solve on each contact set, and K_t = (G*/E*)K if G* is known.
   bool stiffness = true;
-  /// Computes K_t along x by a stick solve on each contact set instead of (G*/E*)K; this needs
-  /// `stiffness`, and a material with known Cerruti constants (made from the bodies or from
-  /// Poisson's ratio).
+  /// Computes K_t by a stick solve on each contact set instead of (G*/E*)K; this needs `stiffness`,
+  /// and a material with known Cerruti constants (made from the bodies or from Poisson's ratio).
   bool stick = false;
+  /// Direction of this K_t, from the x axis, rad. A direction other than x costs two stick solves.
+  double direction = 0;
   /// Number of loads solved at the same time. Each load solved at the same time needs 50 to 60
   /// bytes per cell and uses one thread; 1: the loads are solved one after the other, each with all
   /// threads; 0: as many at once as there are threads.
@@ -40,6 +41,11 @@ struct SweepOptions {
 /// concurrent_loads, groups and callbacks are not used. Collective if the surface is distributed.
 ForceSample force_sample(const NormalContactState& state, const Surface& surface,
                          const Material& material, const SweepOptions& options);
+/// The same with K_t in each of several directions, rad, which replace options.direction: one
+/// sample for each, for the cost of two stick solves in all.
+std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
+                                       const Material& material, const SweepOptions& options,
+                                       const std::vector<double>& directions);
 
 /// Computes the force–gap curve of a surface by boundary elements:
 ///     const ForceCurve curve = sweep_pressures(surface, material, {1e6, 2e6, 5e6, 1e7});
@@ -54,5 +60,14 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
 /// before any computation, for invalid arguments.
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options = {});
+/// The same contacts with K_t in each of several directions, rad, which replace options.direction:
+/// one curve for each direction.
+///     const std::vector<ForceCurve> curves =
+///         sweep_directions(surface, material, {1e6, 2e6}, {0, std::numbers::pi / 2}, {.stick = true});
+/// Each contact is solved once, with two stick solves.
+std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material& material,
+                                         const std::vector<double>& pressures,
+                                         const std::vector<double>& directions,
+                                         const SweepOptions& options = {});
 
 }  // namespace salebra

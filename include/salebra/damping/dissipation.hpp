@@ -4,6 +4,7 @@
 #include <limits>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/operating_point.hpp>
 #include <salebra/damping/loss.hpp>
@@ -72,6 +73,9 @@ struct DampingResult : Loss {
   /// Whether the quadratures reached the tolerance; if false, work_per_cycle must not be used.
   bool converged = false;
   Hold hold = Hold::indentation;  ///< the mean value that the oscillation keeps
+  /// Direction of the tangential motion, from the x axis, rad; NaN if K_t has no direction, as for
+  /// an indenter.
+  double direction = unknown;
 
   /// Sets the loss and the numbers computed from it (such as power and damping constant) to NaN;
   /// the numbers without slip stay.
@@ -103,6 +107,7 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
              energy});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
   visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
+  visit(&S::direction, WhereKnown{quantity::direction});
 }
 
 /// Computes the energy lost per cycle, and γ, from the contact law alone:

@@ -27,6 +27,7 @@ struct IntervalQuadratureResult {
   double force = 0;                 ///< F at the mean indentation, N
   double force_curvature = 0;       ///< F'' at the mean indentation, N/m²
   double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force
+  double direction = 0;             ///< of the tangential motion, from the x axis, rad
   ForceCurve curve;                 ///< the solved contacts, with K_t in the direction of motion
   long iterations = 0;              ///< iterations of all stick and punch solves
   long fft_count = 0;               ///< forward-and-backward transforms of a scalar field
@@ -51,6 +52,7 @@ constexpr void describe(auto&& visit, std::type_identity<IntervalQuadratureResul
   visit(&S::force_curvature, quantity::force_curvature);
   visit(&S::stiffness_ratio,
         Quantity{"stiffness_ratio", dimensionless, "work_per_cycle over work_by_force"});
+  visit(&S::direction, quantity::direction);
   visit(&S::curve, Kept{"curve", "the contacts"});
   visit(&S::iterations, Kept{"iterations", "of all linear solves on contact sets"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
@@ -76,6 +78,7 @@ struct OscillationLoss {
   double force = 0;                     ///< at the mean indentation, N
   std::optional<double> force_curvature = {};  ///< F'' at the mean indentation, N/m²
   std::size_t intervals = 0;
+  double direction = 0;  ///< of the tangential motion, from the x axis, rad
 };
 
 constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
@@ -103,6 +106,7 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   visit(&S::force, quantity::force);
   visit(&S::force_curvature, quantity::force_curvature);
   visit(&S::intervals, Quantity{"intervals", dimensionless, "contacts in the oscillation"});
+  visit(&S::direction, quantity::direction);
 }
 
 /// The loss predicted by the exponential law F ∝ exp(δ/l) with a given decay length l.

@@ -119,6 +119,8 @@ struct SlidingPoint {
   SlidingErrors errors = {};  ///< known for a surface
   /// RegimeMap::no_slip_excursion, m; also unknown if no regime map was computed.
   double no_slip_excursion = SteadySliding::unknown;
+  /// Direction of the sliding, from the x axis, rad; NaN if the contact has no direction.
+  double direction = SteadySliding::unknown;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
@@ -133,6 +135,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
   visit(&S::no_slip_excursion,
         Quantity{"no_slip_excursion", length,
                  "largest excursion without slip; 0: none, n/a: all excursions"});
+  visit(&S::direction, WhereKnown{quantity::direction});
 }
 
 /// One entry of a RegimeMap, as a row of a table.

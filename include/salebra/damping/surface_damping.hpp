@@ -78,13 +78,15 @@ struct SurfaceDampingOptions {
 /// The loss of one surface at one load, with its numerical error.
 struct SurfaceDamping : Loss {
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
-  double window = unknown;           ///< half the range of solved indentations, m
-  int intervals = 0;                 ///< intervals of the oscillation
-  Index points = 0;                  ///< points along x of the grid of this loss
-  double indentation = unknown;      ///< mean indentation of the cycle, m, from first touch
-  double mean_force = unknown;       ///< cycle mean of F, N
-  double max_force = unknown;        ///< F at the largest indentation of the cycle, N
-  double contact_time = unknown;     ///< share of the period in which the bodies touch
+  /// Direction of the tangential motion, from the x axis, rad: that of K_t of the curve.
+  double direction = 0;
+  double window = unknown;        ///< half the range of solved indentations, m
+  int intervals = 0;              ///< intervals of the oscillation
+  Index points = 0;               ///< points along x of the grid of this loss
+  double indentation = unknown;   ///< mean indentation of the cycle, m, from first touch
+  double mean_force = unknown;    ///< cycle mean of F, N
+  double max_force = unknown;     ///< F at the largest indentation of the cycle, N
+  double contact_time = unknown;  ///< share of the period in which the bodies touch
   /// Largest normal amplitude at this load, m, if the motion presses the surface beyond full
   /// contact and therefore has no loss; NaN otherwise.
   double possible_amplitude = unknown;
@@ -98,6 +100,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   using S = SurfaceDamping;
   describe(visit, std::type_identity<Loss>{});
   visit(&S::stiffness_ratio, Kept{"stiffness_ratio", "K_t/((G*/E*)K)"});
+  visit(&S::direction, quantity::direction);
   visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
   visit(&S::intervals, Kept{"intervals", "number of intervals"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
@@ -158,8 +161,9 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// variation counts as an error. The loss without slip has the same bits as in a call without
 /// friction.
 ///
-/// curve   force curve of this surface and material from sweep_pressures(); a sample that did not
-///         converge gives no loss (converged = false)
+/// curve   force curve of this surface and material from sweep_pressures(); the tangential motion
+///         has the direction of its K_t. A sample that did not converge gives no loss (converged =
+///         false)
 /// throws  InvalidInput for a curve without loads, intervals other than 4, 8, 16 or 32, and a
 ///         relative_error outside [0, 1); Interrupted if on_progress says stop
 /// cost    for each load between intervals + 1 and intervals + 5 normal contacts with their
@@ -172,5 +176,16 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options = {});
+
+/// The losses of motions in several directions, one list for each curve: curves of the same
+/// contacts with K_t in these directions, from sweep_directions(). Contacts are solved once for all
+/// directions, so that a second direction costs little more than its stick solves. With
+/// relative_error, cells are halved until the losses in all directions are precise enough.
+///     const auto losses = surface_damping(surface, material, Drag{1e-9, 1e-6, 1e5}, curves);
+std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
+                                                         const Material& material,
+                                                         const Oscillation& motion,
+                                                         const std::vector<ForceCurve>& curves,
+                                                         const SurfaceDampingOptions& options = {});
 
 }  // namespace salebra

@@ -19,6 +19,7 @@
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/filters.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/twin.hpp>
 #include <span>
 #include <string>
@@ -232,7 +233,10 @@ struct StudyConfiguration {
   double relative_error =
       0;  ///< target for each damping constant, reached by halving the cells; 0: none
   std::optional<SeamCheck> seam = {};  ///< adds the error of continuing a scan periodically
-  std::string text;                    ///< text of the file, for provenance
+  /// Direction of the tangential motion and of K_t of the boundary elements: from the x axis, rad,
+  /// or by the lay of the surface. Without stick solves K_t has no direction.
+  DirectionChoice direction = LayDirection::automatic;
+  std::string text;  ///< text of the file, for provenance
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
@@ -248,7 +252,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
   keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping,
-       &S::found_hold, &S::known, &S::intervals, &S::relative_error, &S::seam);
+       &S::found_hold, &S::known, &S::intervals, &S::relative_error, &S::seam, &S::direction);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 

@@ -329,8 +329,11 @@ struct Realisation {
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
-  SummitEnsemble ensemble;            ///< for Greenwood–Williamson, from `moments`
-  std::vector<ModelResult> models;    ///< of configured models, in the order of contact_models()
+  SummitEnsemble ensemble;          ///< for Greenwood–Williamson, from `moments`
+  std::vector<ModelResult> models;  ///< of configured models, in the order of contact_models()
+  /// The boundary elements in further directions of the tangential motion: the result in the first
+  /// direction is in `models`.
+  std::vector<ModelResult> other_directions = {};
   std::vector<SpotStatistics> spots;  ///< for each pressure
   /// Flow factors at each pressure, if the configuration requests them; NaN where the contact or
   /// the flow did not converge.
@@ -365,6 +368,8 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   visit(&S::summits, Part{"summits", "statistics of summits"});
   visit(&S::ensemble, Kept{"ensemble", "summits of the Greenwood-Williamson theory"});
   visit(&S::models, Kept{"models", "what each contact model says"});
+  visit(&S::other_directions,
+        Kept{"other_directions", "boundary elements in further directions of the motion"});
   visit(&S::spots, Kept{"spots", "contact spots of boundary elements at each pressure"});
   visit(&S::flow, Kept{"flow", "flow through the gap at each pressure"});
   visit(&S::adhesion, Kept{"adhesion", "cycle of the adhesive contact"});
@@ -417,6 +422,12 @@ struct StudyLoads {
 /// Cost: that of reading the measured surface.
 StudyLoads study_loads(const StudyConfiguration& configuration,
                        const Communicator& communicator = {});
+
+/// Directions of the tangential motion on the surfaces of a study, from the x axis, rad: those that
+/// the configuration asks for. The lay of generated surfaces is that of their recipe. Without stick
+/// solves, and by default with adhesion, the direction is along x. `surface` is one of them.
+/// Collective. Throws InvalidInput wherever directions_of() does.
+std::vector<double> directions_of(const StudyConfiguration& configuration, const Surface& surface);
 
 /// What the motion of a study keeps at all its pressures, if its configuration leaves this open: the
 /// mean force if the surface lifts off at its lowest pressure, Pa. One contact decides.

@@ -126,6 +126,12 @@ struct StudyResult {
   bool precision_reached = false;  ///< true: the precision was reached before all seeds
 
   std::vector<StudyModel> models() const { return models_of(configuration); }
+  /// Direction of the tangential motion, from the x axis, rad: that of the boundary elements on the
+  /// first surface; NaN if K_t has no direction.
+  double direction() const;
+  /// This result, followed by the same in the further directions of the tangential motion, if there
+  /// are any: `across` the lay, then `along` it. They share all surfaces and normal contacts.
+  std::vector<StudyResult> in_directions() const;
   /// Mean over realisations of a number of the realisation, or of a number of one model's result.
   EnsembleMean mean(const NumberOf<Realisation>& number) const;
   EnsembleMean mean(const NumberOf<ModelResult>& number, ContactModel model) const;

@@ -25,8 +25,9 @@ struct StudySolution {
   /// Conductance of the boundary elements per nominal area, W/(m² K) and S/m²; empty if the
   /// configuration does not request it.
   std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
-  bool slip_followed = false;  ///< true: the coefficient of friction is known
-  std::string unknown = {};    ///< text of why_loss_unknown(); empty: the loss is known
+  double direction = ForceSample::unknown;  ///< StudyResult::direction(), rad
+  bool slip_followed = false;               ///< true: the coefficient of friction is known
+  std::string unknown = {};  ///< text of why_loss_unknown(); empty: the loss is known
   std::vector<Assumptions> assumptions = {};
   std::vector<AssumptionVerdict> verdicts = {};  ///< worst first
   Validity validity = Validity::not_checked;
@@ -48,6 +49,8 @@ constexpr void describe(auto&& visit, std::type_identity<StudySolution>) {
   visit(&S::electrical_conductance,
         Quantity{"electrical_conductance", Dimension::conductance_per_area,
                  "electrical conductance over nominal area"});
+  visit(&S::direction, Kept{quantity::direction.name, quantity::direction.long_name,
+                            quantity::direction.dimension});
   visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
   visit(&S::unknown, Kept{"unknown", "why the loss is unknown; empty: it is known"});
   visit(&S::assumptions, Kept{"assumptions", "assumptions at each pressure"});

@@ -3,8 +3,11 @@
 
 #include <limits>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace salebra {
@@ -76,6 +79,45 @@ SurfaceLay surface_lay(const Surface& surface);
 /// Describes a lay in words, such as "ground-like: lay 12° from x, 6 to 1"; empty unless
 /// lay.found(). The ratio is "above 20 to 1", with its lower limit, if it has no upper limit.
 std::string lay_in_words(const SurfaceLay& lay);
+
+/// Directions of tangential motion that are named after the lay of the surface.
+enum class LayDirection {
+  automatic,  ///< across and along the lay if the surface has one, otherwise along x
+  across,
+  along,
+  both  ///< across, then along
+};
+
+template <>
+struct EnumNames<LayDirection> {
+  static constexpr auto values =
+      std::to_array<std::pair<LayDirection, std::string_view>>({{LayDirection::automatic, "auto"},
+                                                                {LayDirection::across, "across"},
+                                                                {LayDirection::along, "along"},
+                                                                {LayDirection::both, "both"}});
+};
+
+/// A direction of tangential motion as a user chooses it: by the lay, or as an angle from the x
+/// axis, rad.
+using DirectionChoice = std::variant<LayDirection, double>;
+
+/// Reads such a choice: auto, across, along, both, or an angle with a unit, such as "30deg". field:
+/// name of the option or key in errors. Throws InvalidInput for anything else.
+///     const DirectionChoice choice = direction_choice("30deg", "direction");
+DirectionChoice direction_choice(std::string_view text, std::string_view field);
+
+/// Returns the chosen directions on a surface with this lay, as angles from the x axis, rad, in
+/// [0, π); `across` comes first.
+///     const std::vector<double> directions = directions_of(choice, surface_lay(surface));
+/// A K_t, and what depends on it, is the same in opposite directions. Throws InvalidInput for
+/// `across`, `along` and `both` unless lay.found(), and for an angle that is not finite.
+std::vector<double> directions_of(const DirectionChoice& choice, const SurfaceLay& lay);
+/// The same for a surface, whose lay is computed only if the choice depends on it; the cost of
+/// surface_lay(). Collective.
+std::vector<double> directions_of(const DirectionChoice& choice, const Surface& surface);
+
+/// Words for a direction of motion: "along x", "along y", or "at 30° to x".
+std::string direction_in_words(double direction);
 
 /// Returns the skewness of the heights if a Gaussian surface with the same correlation function
 /// would rarely have it, otherwise 0. The sample skewness of a Gaussian surface of N points has the

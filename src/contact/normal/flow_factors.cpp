@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
@@ -158,6 +160,7 @@ double effective_medium(const Field& conductance, double mean) {
 
 /// Flow under a pressure gradient of one per cell.
 struct Flow {
+  Field pressure = {};
   double factor = 0, residual = 0;
   int iterations = 0;
   Termination termination = Termination::iteration_limit;
@@ -219,7 +222,26 @@ class Reynolds {
       }
     }
     result.factor = dissipation(p, along_x) / cells;
+    result.pressure = std::move(p);
     return result;
+  }
+
+  /// Flow along x under a gradient of one per cell along y, from the pressures of both gradients. As
+  /// a product of both, its error is the product of their errors.
+  double mixed(const Field& of_x, const Field& of_y) const {
+    return parallel::sum_blocks(
+               of_x.rows(),
+               [&](Index begin, Index end) {
+                 double sum = 0;
+                 const double *u = of_x.data(), *v = of_y.data();
+                 for_cells(begin, end, [&](Index k, Index, Index below, Index, Index right) {
+                   sum += faces_.x.data()[k] * (1 + u[below] - u[k]) * (v[below] - v[k]) +
+                          faces_.y.data()[k] * (u[right] - u[k]) * (1 + v[right] - v[k]);
+                 });
+                 return sum;
+               },
+               of_x.size()) /
+           static_cast<double>(of_x.size());
   }
 
  private:
@@ -362,27 +384,22 @@ FaceConductances faces_of(const Field& conductance, const OpenParts& parts, cons
   return faces;
 }
 
-template <class OpenCell>
-FlowFactors flow_through(const Field& gap, const Grid2D& grid, const FlowOptions& options,
-                         const OpenCell& open) {
-  require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
-          "must lie in 1e-14 … 1e-1");
-  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
-  require_memory(grid, 150 * static_cast<double>(grid.points()), "the flow through a gap");
+/// The flow factors of a gap on its cells, without their errors. Cells with a gap of 0 are closed.
+FlowFactors flow_of(const Field& gap, const Grid2D& grid, const FlowOptions& options,
+                    bool with_bruggeman) {
   FlowFactors result;
-  const auto opening = [&](Index k) { return open(k) ? std::max(0.0, gap.data()[k]) : 0.0; };
-  Field conductance = uninitialised_field(grid.nx, grid.ny);
-  for (Index k = 0; k < grid.points(); ++k) conductance.data()[k] = opening(k);
-  result.mean_gap =
-      sum_cells(conductance, [](double g) { return g; }) / static_cast<double>(grid.points());
+  result.mean_gap = sum_cells(gap, [](double g) { return g; }) / static_cast<double>(gap.size());
   if (!(result.mean_gap > 0)) return result;
+  Field conductance = uninitialised_field(grid.nx, grid.ny);
   for (Index k = 0; k < grid.points(); ++k) {
-    const double relative = conductance.data()[k] / result.mean_gap;
+    const double relative = gap.data()[k] / result.mean_gap;
     conductance.data()[k] = relative > min_open ? relative * relative * relative : 0;
   }
-  const double mean_cube =
-      sum_cells(conductance, [](double s) { return s; }) / static_cast<double>(grid.points());
-  result.bruggeman_flow_factor = effective_medium(conductance, mean_cube);
+  if (with_bruggeman) {
+    const double mean_cube =
+        sum_cells(conductance, [](double s) { return s; }) / static_cast<double>(grid.points());
+    result.bruggeman_flow_factor = effective_medium(conductance, mean_cube);
+  }
   const OpenParts parts(conductance);
   for (Index k = 0; k < grid.points(); ++k) {
     const Directions round = parts.leads_round(k);
@@ -395,18 +412,83 @@ FlowFactors flow_through(const Field& gap, const Grid2D& grid, const FlowOptions
   FlowMultigrid multigrid(faces);
   Reynolds reynolds(faces, multigrid);
   const double aspect = grid.dx() / grid.dy();
-  const auto solve = [&](bool along_x, double scale) {
-    const Flow flow = reynolds.flow(along_x, options, result.iterations);
+  const auto solve = [&](bool along_x) {
+    Flow flow = reynolds.flow(along_x, options, result.iterations);
     result.residual = std::max(result.residual, flow.residual);
     result.iterations += flow.iterations;
     result.termination = std::max(result.termination, flow.termination);
-    return flow.factor * scale;
+    return flow;
   };
+  Flow along_x, along_y;
+  if (result.percolates_x) {
+    along_x = solve(true);
+    result.pressure_flow_factor_x = along_x.factor * aspect;
+  }
+  if (result.percolates_y && result.termination != Termination::interrupted) {
+    along_y = solve(false);
+    result.pressure_flow_factor_y = along_y.factor * (1 / aspect);
+  }
+  if (result.termination == Termination::interrupted) return result;
+  result.pressure_flow_factor_xy = result.percolates_x && result.percolates_y
+                                       ? reynolds.mixed(along_x.pressure, along_y.pressure)
+                                       : 0;
+  return result;
+}
+
+/// The flow through every second cell along both axes; empty if too few cells are left.
+std::optional<FlowFactors> on_coarse_cells(const Field& gap, const Grid2D& grid,
+                                           const FlowOptions& options) {
+  if (grid.nx < 8 || grid.ny < 8) return {};
+  const Grid2D coarse{(grid.nx + 1) / 2, (grid.ny + 1) / 2, grid.lx, grid.ly};
+  const Field gaps = gap(Eigen::seqN(0, coarse.nx, 2), Eigen::seqN(0, coarse.ny, 2));
+  return flow_of(gaps, coarse, options, false);
+}
+
+/// Error of a flow factor by its cells, from that on cells of twice the size. Flow factors converge
+/// at second order, so that a third of the change remains; with the few cells that constrictions
+/// have, it is up to two thirds.
+double cell_error(double factor, const std::optional<FlowFactors>& coarse, double angle) {
+  if (!coarse || std::isnan(factor)) return FlowFactors::unknown;
+  if (!coarse->converged()) return FlowFactors::unknown;
+  const double other = coarse->flow_factor(angle);
+  return 0.75 * std::abs(factor - (std::isnan(other) ? 0 : other));
+}
+template <class OpenCell>
+FlowFactors flow_through(const Field& gap, const Grid2D& grid, const FlowOptions& options,
+                         const OpenCell& open) {
+  require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
+          "must lie in 1e-14 … 1e-1");
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
+  require(!std::isinf(options.lay_angle), "lay_angle", options.lay_angle, "must be finite");
+  require_memory(grid, 166 * static_cast<double>(grid.points()), "the flow through a gap");
+  Field opening = uninitialised_field(grid.nx, grid.ny);
+  for (Index k = 0; k < grid.points(); ++k)
+    opening.data()[k] = open(k) ? std::max(0.0, gap.data()[k]) : 0.0;
+  FlowFactors result = flow_of(opening, grid, options, true);
+  if (!result.percolates_x && !result.percolates_y) return result;
   double both = 0;
-  if (result.percolates_x) both += result.pressure_flow_factor_x = solve(true, aspect);
-  if (result.percolates_y && result.termination != Termination::interrupted)
-    both += result.pressure_flow_factor_y = solve(false, 1 / aspect);
+  if (result.percolates_x) both += result.pressure_flow_factor_x;
+  if (result.percolates_y && !std::isnan(result.pressure_flow_factor_y))
+    both += result.pressure_flow_factor_y;
   result.effective_gap = result.mean_gap * std::cbrt(0.5 * both);
+  if (!result.converged()) return result;
+  const std::optional<FlowFactors> coarse = on_coarse_cells(opening, grid, options);
+  if (coarse && coarse->termination == Termination::interrupted) {
+    result.termination = coarse->termination;
+    return result;
+  }
+  const auto add = [&](double angle, double& factor, double& error) {
+    factor = result.flow_factor(angle);
+    error = cell_error(factor, coarse, angle);
+  };
+  double unused;
+  add(0, unused, result.pressure_flow_factor_x_error);
+  add(std::numbers::pi / 2, unused, result.pressure_flow_factor_y_error);
+  if (std::isnan(options.lay_angle)) return result;
+  add(options.lay_angle + std::numbers::pi / 2, result.pressure_flow_factor_across,
+      result.pressure_flow_factor_across_error);
+  add(options.lay_angle, result.pressure_flow_factor_along,
+      result.pressure_flow_factor_along_error);
   return result;
 }
 
@@ -420,6 +502,19 @@ void require_gap(const Field& gap, const Grid2D& grid) {
 }
 
 }  // namespace
+
+double FlowFactors::flow_factor(double angle) const {
+  // Along an axis, the factor keeps its bits.
+  const double c = std::cos(angle), s = std::sin(angle);
+  if (std::abs(s) < 1e-12) return pressure_flow_factor_x;
+  if (std::abs(c) < 1e-12) return pressure_flow_factor_y;
+  if (!percolates_x && !percolates_y) return unknown;
+  const double x = percolates_x ? pressure_flow_factor_x : 0,
+               y = percolates_y ? pressure_flow_factor_y : 0;
+  const double factor = c * c * x + 2 * c * s * pressure_flow_factor_xy + s * s * y;
+  // Channels that all run at right angles to the direction let nothing pass along it.
+  return factor <= 1e-9 * (x + y) ? unknown : factor;
+}
 
 FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions& options) {
   require_gap(gap, grid);

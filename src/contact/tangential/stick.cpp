@@ -97,6 +97,12 @@ void StickSolver::reserve(const ContactSet& largest) {
   parts_->workspace.system_for(largest);
 }
 
+double StickStiffness::along(double angle) const {
+  if (angle == 0) return xx;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return c * c * xx + 2 * c * s * xy + s * s * yy;
+}
+
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
                                bool along_x_only, const Field& guess,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "rough_surface.hpp"
+#include "surface/refine.hpp"
 
 using namespace salebra;
 using namespace salebra::test;
@@ -363,4 +364,168 @@ TEST_CASE("A flow that is not found says so", "[flow]") {
   Field undefined = gap;
   undefined(3, 4) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(flow_factors(undefined, grid), InvalidInput);
+}
+
+namespace {
+
+/// A gap that is a function of the distance across grooves with the direction (1, k) in periods.
+template <class Profile>
+Field grooves(const Grid2D& grid, int periods_x, int periods_y, const Profile& profile) {
+  Field gap(grid.nx, grid.ny);
+  for (Index i = 0; i < grid.nx; ++i)
+    for (Index j = 0; j < grid.ny; ++j)
+      gap(i, j) = profile(2 * std::numbers::pi *
+                          (periods_x * (double(i) + 0.5) / double(grid.nx) +
+                           periods_y * (double(j) + 0.5) / double(grid.ny)));
+  return gap;
+}
+
+}  // namespace
+
+TEST_CASE("Grooves at any angle conduct in parallel along them and in series across them",
+          "[flow]") {
+  // Waves of 2 periods along x and 3 along y run at an angle to both axes. The conductance along
+  // the grooves is ⟨g³⟩, that across them 1/⟨g⁻³⟩; the cells cause an error of second order.
+  const auto profile = [](double phase) { return 1 + 0.5 * std::sin(phase); };
+  double mean_cube = 0, mean_inverse = 0;
+  constexpr int samples = 1000;
+  for (int k = 0; k < samples; ++k) {
+    const double g = profile(2 * std::numbers::pi * k / samples);
+    mean_cube += g * g * g / samples;
+    mean_inverse += 1 / (g * g * g) / samples;
+  }
+  std::vector<double> along, across;
+  for (const Index n : {48, 96, 192}) {
+    const Grid2D grid{n, n, 1e-3, 1e-3};
+    const double normal = std::atan2(3.0, 2.0);
+    const FlowFactors flow =
+        flow_factors(grooves(grid, 2, 3, profile), grid,
+                     {.tolerance = 1e-10, .lay_angle = normal + std::numbers::pi / 2});
+    REQUIRE(flow.converged());
+    along.push_back(flow.pressure_flow_factor_along - mean_cube);
+    across.push_back(flow.pressure_flow_factor_across - 1 / mean_inverse);
+    CHECK(std::abs(along.back()) < flow.pressure_flow_factor_along_error);
+    CHECK(std::abs(across.back()) < flow.pressure_flow_factor_across_error);
+    // The matrix has the same trace in any two directions at right angles.
+    CHECK(flow.pressure_flow_factor_along + flow.pressure_flow_factor_across ==
+          Approx(flow.pressure_flow_factor_x + flow.pressure_flow_factor_y).epsilon(1e-12));
+    CHECK(flow.percolates(0.3));
+  }
+  // The mean of a smooth function along the grooves converges faster.
+  for (const auto& errors : {along, across}) {
+    CHECK(std::log2(errors[0] / errors[1]) > 1.8);
+    CHECK(std::log2(errors[1] / errors[2]) > 1.8);
+  }
+}
+
+TEST_CASE("The flow along a diagonal is that of a direct solve with a diagonal gradient",
+          "[flow]") {
+  // The flow along e under a gradient along e, by the parallelogram law: of the direct solves along
+  // x and y and of one along x + y, which transposing and shearing a periodic gap makes.
+  const Grid2D grid{64, 64, 1e-3, 1e-3};
+  const Field gap = contact_gap(grid, 5, 0.02);
+  const FlowFactors flow = flow_factors(gap, grid, {.tolerance = 1e-11});
+  REQUIRE(flow.converged());
+  REQUIRE((flow.percolates_x && flow.percolates_y));
+  // Mirroring y changes the sign of Φ_xy alone; transposing exchanges Φ_x and Φ_y.
+  const FlowFactors mirrored = flow_factors(gap.rowwise().reverse(), grid, {.tolerance = 1e-11});
+  CHECK(mirrored.pressure_flow_factor_xy == Approx(-flow.pressure_flow_factor_xy).epsilon(1e-7));
+  const FlowFactors turned = flow_factors(gap.transpose(), grid, {.tolerance = 1e-11});
+  CHECK(turned.pressure_flow_factor_xy == Approx(flow.pressure_flow_factor_xy).epsilon(1e-7));
+  const double angle = 0.4;
+  CHECK(turned.flow_factor(std::numbers::pi / 2 - angle) ==
+        Approx(flow.flow_factor(angle)).epsilon(1e-9));
+  CHECK(mirrored.flow_factor(-angle) == Approx(flow.flow_factor(angle)).epsilon(1e-9));
+  CHECK(std::abs(flow.pressure_flow_factor_xy) > 1e-3);
+}
+
+TEST_CASE("Channels let nothing pass at right angles to them", "[flow]") {
+  const Grid2D grid{32, 32, 1e-3, 1e-3};
+  // A staircase of one cell width that runs along the diagonal of the period.
+  Field gap = Field::Zero(32, 32);
+  for (Index k = 0; k < 32; ++k) gap(k, k) = gap(k, (k + 1) % 32) = 1e-6;
+  const double diagonal = std::numbers::pi / 4;
+  const FlowFactors flow = flow_factors(gap, grid, {.lay_angle = diagonal});
+  CHECK(flow.percolates(diagonal));
+  CHECK_FALSE(flow.percolates(diagonal + std::numbers::pi / 2));
+  CHECK(std::isnan(flow.pressure_flow_factor_across));
+  CHECK(flow.pressure_flow_factor_along ==
+        Approx(flow.pressure_flow_factor_x + flow.pressure_flow_factor_y).epsilon(1e-7));
+}
+
+TEST_CASE("A lay at 30 degrees has the flow of the same surface turned to the axes", "[flow]") {
+  // Waves of a periodic surface with a lay along x, and the same process drawn with the lay at 30°;
+  // the means over many surfaces agree within their scatter. The gap is not a contact, so that both
+  // have the same distribution.
+  constexpr int seeds = 16;
+  const Index n = 96;
+  const Grid2D grid{n, n, 1e-3, 1e-3};
+  const auto stretched = [&](double lay, std::uint64_t seed) {
+    // Few waves with wave vectors of whole periods, whose power falls with the stretched |q|.
+    Lcg random(seed);
+    Field h = Field::Zero(n, n);
+    for (int a = 0; a <= 16; ++a)
+      for (int b = -16; b <= 16; ++b) {
+        if (a == 0 && b <= 0) continue;
+        const double phase = 2 * std::numbers::pi * random.uniform();
+        const double u = a * std::cos(lay) + b * std::sin(lay),
+                     v = -a * std::sin(lay) + b * std::cos(lay), q = std::hypot(3 * u, v);
+        if (q > 16) continue;
+        const double size = std::pow(std::max(q, 4.0), -1.8);
+        for (Index i = 0; i < n; ++i)
+          for (Index j = 0; j < n; ++j)
+            h(i, j) +=
+                size * std::cos(2 * std::numbers::pi * double(a * i + b * j) / double(n) + phase);
+      }
+    return Field((1 + 0.35 * h / std::sqrt(h.square().mean())).max(0.0));
+  };
+  double sums[2] = {}, squares[2] = {};
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const double lay = std::numbers::pi / 6;
+    const FlowFactors axis = flow_factors(stretched(0, seed), grid, {.lay_angle = 0}),
+                      turned = flow_factors(stretched(lay, seed + 100), grid, {.lay_angle = lay});
+    const double differences[]{
+        std::log(axis.pressure_flow_factor_along / turned.pressure_flow_factor_along),
+        std::log(axis.pressure_flow_factor_across / turned.pressure_flow_factor_across)};
+    for (int k = 0; k < 2; ++k) {
+      sums[k] += differences[k];
+      squares[k] += differences[k] * differences[k];
+    }
+    CHECK(turned.pressure_flow_factor_along > 1.5 * turned.pressure_flow_factor_across);
+  }
+  for (int k = 0; k < 2; ++k) CHECK(std::abs(sums[k] / seeds) < 3 * std::sqrt(squares[k]) / seeds);
+}
+
+TEST_CASE("The error of the cells covers the flow on finer cells", "[flow]") {
+  // The truth is the contact of the surface with cells of half the size, plus what second order
+  // leaves on these, a third of the change. The error holds in 90 % of the cases or more.
+  int cases = 0, covered = 0;
+  for (const double cutoff : {8.0, 16.0})
+    for (std::uint64_t seed = 11; seed <= 14; ++seed) {
+      const Surface surface = rough_surface({48, 48, 1e-3, 1e-3}, {.cutoff = cutoff, .seed = seed});
+      for (const double pressure : {0.01, 0.05, 0.1}) {
+        const auto gap_of = [&](const Surface& one) {
+          const NormalContactState state =
+              press(one, modulus, at_pressure(pressure * 0.1 * modulus), {.tolerance = 1e-7});
+          return Field((state.contact_pressure > 0).select(0, state.gap.max(0.0)));
+        };
+        const FlowFactors own = flow_of(gap_of(surface), 1e-6),
+                          fine = flow_of(gap_of(refined(surface, 2)), 1e-6);
+        for (const bool x : {true, false}) {
+          const double factor = x ? own.pressure_flow_factor_x : own.pressure_flow_factor_y,
+                       other = x ? fine.pressure_flow_factor_x : fine.pressure_flow_factor_y,
+                       error =
+                           x ? own.pressure_flow_factor_x_error : own.pressure_flow_factor_y_error;
+          if (std::isnan(factor) || std::isnan(other)) continue;
+          CAPTURE(cutoff, seed, pressure, factor, other, error);
+          ++cases;
+          covered += std::abs(other + (other - factor) / 3 - factor) <= error;
+          // The error is not much larger than needed, or it would say nothing.
+          CHECK(error < 0.2 * factor + 1e-3);
+        }
+      }
+    }
+  CAPTURE(cases, covered);
+  CHECK(cases > 30);
+  CHECK(covered >= 0.9 * cases);
 }

@@ -8,6 +8,12 @@
 
 namespace salebra {
 
+namespace quantity {
+/// Which way a tangential motion goes, in every result that depends on it.
+inline constexpr Quantity direction{"direction", Dimension::angle,
+                                    "direction of the tangential motion, from the x axis"};
+}  // namespace quantity
+
 /// One state of a contact. Quantities that a model does not provide are NaN.
 struct ForceSample {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -21,7 +27,9 @@ struct ForceSample {
   double pressure = unknown;               ///< p = F/A0, Pa
   double contact_area_fraction = unknown;  ///< A/A0
   double normal_stiffness = unknown;       ///< K = dF/dδ, N/m
-  double tangential_stiffness = unknown;   ///< K_t = dF_x/dx in full stick, N/m
+  double tangential_stiffness = unknown;   ///< K_t in full stick along `direction`, N/m
+  /// Direction of K_t, from the x axis, rad; NaN for models whose K_t has no direction.
+  double direction = unknown;
   bool converged = true;
 };
 
@@ -40,6 +48,7 @@ constexpr void describe(auto&& visit, std::type_identity<ForceSample>) {
         Extensive{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
   visit(&S::tangential_stiffness,
         Extensive{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+  visit(&S::direction, WhereKnown{quantity::direction});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
 }
 
@@ -53,9 +62,22 @@ struct ForceCurve {
   bool adhesive = false;  ///< true for contacts with adhesion, which TabulatedLaw rejects because
                           ///< they have no single-valued law
 
+  /// Direction of the tangential stiffnesses, from the x axis, rad: that of the first sample; NaN
+  /// without samples.
+  double direction() const {
+    return samples.empty() ? ForceSample::unknown : samples.front().direction;
+  }
   /// Returns one member of every sample.
   std::vector<double> column(double ForceSample::*quantity) const;
 };
+
+/// Divides a curve that has the K_t of several directions, one after the other, into the curves of
+/// single directions; a curve of one direction stays whole.
+///     const std::vector<ForceCurve> curves = by_direction(read_force_curve("ground.h5"));
+std::vector<ForceCurve> by_direction(const ForceCurve& curve);
+/// Joins the samples of curves in one list, as files of several directions have them. At least one
+/// curve.
+ForceCurve joined(const std::vector<ForceCurve>& curves);
 
 constexpr void describe(auto&& visit, std::type_identity<ForceCurve>) {
   using enum Dimension;

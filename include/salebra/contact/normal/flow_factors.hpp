@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
@@ -14,6 +15,9 @@ struct FlowOptions {
   /// preconditioner; 1e-14 to 1e-1.
   double tolerance = 1e-8;
   int max_iterations = 200;  ///< limit for each direction, >= 1
+  /// Direction of the lay of the surface, from the x axis, rad: adds the flow factors across and
+  /// along it. NaN: no lay.
+  double lay_angle = std::numeric_limits<double>::quiet_NaN();
   Progress on_progress = {};
 };
 
@@ -28,6 +32,16 @@ struct FlowFactors {
   /// there is no flow.
   double pressure_flow_factor_x = unknown;
   double pressure_flow_factor_y = unknown;  ///< flow factor along y, likewise
+  /// Flow along x under a pressure gradient along y, divided by the flow between smooth walls along
+  /// the gradient; as much flows along y under a gradient along x. 0 if the gap percolates along
+  /// one axis only.
+  double pressure_flow_factor_xy = unknown;
+  /// Flow factors across and along the lay of FlowOptions::lay_angle; NaN without a lay, or without
+  /// flow in this direction.
+  double pressure_flow_factor_across = unknown, pressure_flow_factor_along = unknown;
+  /// Errors of these factors by the size of the cells.
+  double pressure_flow_factor_x_error = unknown, pressure_flow_factor_y_error = unknown,
+         pressure_flow_factor_across_error = unknown, pressure_flow_factor_along_error = unknown;
   /// Gap between smooth walls with the same flow, averaged over x and y, m; NaN without flow.
   double effective_gap = unknown;
   /// Bruggeman's estimate of the flow factors along x and y from the distribution of gaps alone.
@@ -38,6 +52,11 @@ struct FlowFactors {
   Termination termination = Termination::converged;
 
   bool converged() const { return termination == Termination::converged; }
+  /// Flow factor along the direction e at an angle from x, rad: e·Φ·e, the flow along e under a
+  /// pressure gradient along e. NaN if nothing flows.
+  double flow_factor(double angle) const;
+  /// Whether fluid flows along the direction at this angle.
+  bool percolates(double angle) const { return !std::isnan(flow_factor(angle)); }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<FlowFactors>) {
@@ -54,6 +73,27 @@ constexpr void describe(auto&& visit, std::type_identity<FlowFactors>) {
   visit(&S::pressure_flow_factor_y,
         Quantity{"pressure_flow_factor_y", dimensionless,
                  "flow along y over that between smooth walls at the mean gap"});
+  visit(&S::pressure_flow_factor_xy,
+        Quantity{"pressure_flow_factor_xy", dimensionless,
+                 "flow along x under a gradient along y over that between smooth walls"});
+  visit(&S::pressure_flow_factor_across,
+        WhereKnown{"pressure_flow_factor_across", dimensionless,
+                   "flow across the lay over that between smooth walls at the mean gap"});
+  visit(&S::pressure_flow_factor_along,
+        WhereKnown{"pressure_flow_factor_along", dimensionless,
+                   "flow along the lay over that between smooth walls at the mean gap"});
+  visit(&S::pressure_flow_factor_x_error,
+        Quantity{"pressure_flow_factor_x_error", dimensionless,
+                 "error of pressure_flow_factor_x by the size of cells"});
+  visit(&S::pressure_flow_factor_y_error,
+        Quantity{"pressure_flow_factor_y_error", dimensionless,
+                 "error of pressure_flow_factor_y by the size of cells"});
+  visit(&S::pressure_flow_factor_across_error,
+        WhereKnown{"pressure_flow_factor_across_error", dimensionless,
+                   "error of pressure_flow_factor_across by the size of cells"});
+  visit(&S::pressure_flow_factor_along_error,
+        WhereKnown{"pressure_flow_factor_along_error", dimensionless,
+                   "error of pressure_flow_factor_along by the size of cells"});
   visit(&S::effective_gap,
         Quantity{"effective_gap", length, "gap between smooth walls that let pass the same flow"});
   visit(&S::bruggeman_flow_factor,
@@ -77,11 +117,18 @@ constexpr void describe(auto&& visit, std::type_identity<FlowFactors>) {
 /// (1935)]; Dapp et al. (2012) compare it with the exact flow. Gaps of isotropic contacts stop
 /// percolating at a contact area of about 0.42 [Wang and Müser (2020)], and between 0.35 and 0.5 by
 /// chance if few roughness wavelengths fit into the period.
+/// The flow is linear in the gradient, so the two solves along x and y give the flow factor along
+/// any direction e: e·Φ·e with the symmetric matrix Φ of pressure_flow_factor_x, _xy and _y. The
+/// error of a factor by its cells is three quarters of its change on every second cell along x and
+/// y; the factors converge at second order, but of the flow through constrictions of a few cells up
+/// to two thirds of the change remain. If the cells of twice the size let nothing pass, the error
+/// is three quarters of the factor. It is NaN for fewer than 8 cells along an axis.
 /// gap      (nx, ny), m, finite; cells with a gap <= 0 are closed
 /// throws   InvalidInput, before any computation, for invalid gaps or options; non-convergence is
 ///          returned, not thrown
-/// cost     conjugate gradients with an algebraic multigrid, 8 to 25 iterations per direction, each
-///          as long as three transform pairs; about 100 bytes per cell. Results have the same bits
+/// cost     conjugate gradients with an algebraic multigrid, 8 to 25 iterations per axis, each as
+///          long as three transform pairs, and a quarter of this for the errors; about 120 bytes per
+///          cell. Results have the same bits
 ///          for every thread count
 FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions& options = {});
 

@@ -94,6 +94,9 @@ struct StickStiffness {
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
+  /// Force over displacement along the direction e at an angle from x, rad, if the displacement at
+  /// right angles to it is held at 0: e·K·e, N/m.
+  double along(double angle) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
