@@ -44,7 +44,7 @@ void check_below_sliding(double force, double limit, const char* where) {
 }
 
 // Smallest K_t, as a fraction of that of the whole contact, for which springs are counted.
-constexpr double negligible = 1e-17;
+constexpr double negligible_part = 1e-17;
 // A spring slips or sticks as far as its share of the normal force, or of the loss, matters: 5 %.
 constexpr double share_that_matters = 0.05;
 
@@ -72,7 +72,7 @@ struct WholeContact {
     low = law.first_touch();
     if (!std::isfinite(low))
       for (double depth = force / law.normal_stiffness(high);; depth *= 2)
-        if (low = high - depth; !(law.tangential_stiffness(low) > negligible * stiffness)) break;
+        if (low = high - depth; !(law.tangential_stiffness(low) > negligible_part * stiffness)) break;
     const std::vector<double> breaks = breaks_between(law, low, high);
     const auto moment = [&](auto&& weight) {
       const detail::Integral found = detail::integrate(
