@@ -36,7 +36,7 @@ double Lay::log_blur_slope(double v, double u_square) const {
 
 namespace {
 
-constexpr double significant_length = 3.035;  ///< √(−2 ln 0.01), as in surface_lay()
+constexpr double significant_vector = 3.035;  ///< √(−2 ln 0.01), as in surface_lay()
 constexpr double two_sided = 1.96;
 constexpr double least_log_stretch = 0.03;  ///< smaller ones are errors of instruments
 constexpr double of_nyquist = 0.6;  ///< beyond this part of the Nyquist mode, sampling folds power
@@ -193,10 +193,10 @@ class LaySearch {
                                      at_end = estimates(ellipse, maps_);
     const Lay lay = ellipse.lay();
     const Estimate none = sum_of(at_none), end = sum_of(at_end);
-    const bool directed = none.length() > significant_length * none.error() * scatter(at_none);
+    const bool directed = none.length() > significant_vector * none.error() * scatter(at_none);
     const double error = end.error() * scatter(at_end), log_stretch = std::log(lay.stretch);
     const bool significant =
-        directed && log_stretch > significant_length * error && log_stretch > least_log_stretch;
+        directed && log_stretch > significant_vector * error && log_stretch > least_log_stretch;
     refuse_differing_scans(at_end);
     refuse_other_spectra(significant ? ellipse : Ellipse{});
     if (directed && end.error() > 0.3)
