@@ -29,7 +29,7 @@ struct JointArguments {
   MaterialOptions material;
   std::vector<double> tangential_forces, tangential_amplitudes;
   std::optional<double> normal_amplitude, phase, frequency, angular_frequency;
-  std::string hold;
+  std::string hold, direction = "auto";
   int steps = 2000;
   std::optional<int> direct_steps;
   AssumptionOptions assumptions;
@@ -114,8 +114,8 @@ void check(const JointArguments& arguments) {
 /// of a lay along the motion, the stiffest that of a lay across it, each for an endless stretch: with
 /// ν from ρ = 2(1 − ν)/(2 − ν), K_t/K of strips is 1 − ν = ρ/(2 − ρ) along and 1 across.
 std::vector<ContactProblem> contacts_of(const JointArguments& arguments, Session& session) {
-  std::vector<ContactProblem> contacts =
-      arguments.law.problems(arguments.material, session, arguments.assumptions.hardness);
+  std::vector<ContactProblem> contacts = arguments.law.problems(
+      arguments.material, session, arguments.assumptions.hardness, arguments.direction);
   if (arguments.law.of_roughness()) {
     const RoughnessLaw law = arguments.law.law_of_sides(arguments.material);
     const auto middle = std::get<ExponentialContact>(contacts.front());
@@ -284,6 +284,8 @@ void run(const JointArguments& arguments, Session& session) {
   Json answer = Json::object();
   if (arguments.law.of_roughness())
     answer = json_of(arguments.law.law_of_sides(arguments.material));
+  if (const double direction = found.contact.direction(); !std::isnan(direction))
+    answer["direction"] = direction;
   answer.add(limits.state());
   std::vector<ResultTable> tables{limits.motions(area)};
   if (solutions.size() > 1) {
@@ -329,6 +331,8 @@ void add_joint_command(Program& program) {
   add_values(command, "--tangential-amplitudes", arguments->tangential_amplitudes,
              Dimension::length,
              "amplitudes x of a displacement between -x and x, instead of --tangential-forces");
+  add_direction(command, arguments->direction,
+                "with --surface or --curve: direction of the tangential motion");
   add_quantity(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length,
                "amplitude u_z of the normal motion; without it the normal force is constant");
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,

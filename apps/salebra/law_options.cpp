@@ -104,7 +104,8 @@ RoughnessLaw LawOptions::law_of_sides(const MaterialOptions& material) const {
 }
 
 std::vector<ContactProblem> LawOptions::problems(const MaterialOptions& material, Session& session,
-                                                 const std::optional<double>& hardness) const {
+                                                 const std::optional<double>& hardness,
+                                                 const std::string& direction) const {
   std::vector<ContactProblem> all;
   if (!curve.empty() && indenter.law.empty() && !surface.given() && !of_roughness()) {
     require_own_parameters();
@@ -115,10 +116,11 @@ std::vector<ContactProblem> LawOptions::problems(const MaterialOptions& material
       all.emplace_back(CurveContact{.curve = std::move(one),
                                     .modulus_ratio = material.modulus_ratio(),
                                     .at = points,
-                                    .source = curve});
+                                    .source = curve,
+                                    .direction = direction_choice(direction, "--direction")});
     return all;
   }
-  all.push_back(problem(material, session, hardness));
+  all.push_back(problem(material, session, hardness, direction));
   return all;
 }
 

@@ -31,7 +31,8 @@ struct LawOptions {
   RoughnessLaw law_of_sides(const MaterialOptions& material) const;
   /// The contact for each surface of the study in --curve, or the one contact of problem().
   std::vector<ContactProblem> problems(const MaterialOptions& material, Session& session,
-                                       const std::optional<double>& hardness) const;
+                                       const std::optional<double>& hardness,
+                                       const std::string& direction) const;
   /// The contact that the options describe, with its operating points. Throws InvalidInput if an
   /// option is missing or does not fit the others. Reads the file of a surface. direction: value of
   /// --direction; empty for a command without this option, which takes motion along x.

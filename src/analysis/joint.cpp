@@ -7,6 +7,7 @@
 #include <cmath>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/surface/lay.hpp>
 #include <utility>
 
 #include "damping/max_motion.hpp"
@@ -119,6 +120,10 @@ JointSolution solve(JointProblem problem, const Context& context) {
           "given; a joint takes one, with several tangential forces or amplitudes");
   if (!warning.empty()) solution.warnings.push_back(warning);
   const double friction = problem.parameters.friction_coefficient;
+  const double direction =
+      std::isnan(solution.contact.direction()) ? 0 : solution.contact.direction();
+  require(direction == 0 || !problem.direct_steps, "direction", direction_in_words(direction),
+          "given, but the simulation cell by cell is of motion along x; leave one of them out");
   const OperatingPoint of_body = solution.contact.points.front();
   // Law of the surface; empty if the surface itself is the part.
   std::shared_ptr<const ContactLaw> sample;
@@ -137,10 +142,11 @@ JointSolution solve(JointProblem problem, const Context& context) {
     if (sample)
       for (const TangentialOscillation& motion : problem.motions)
         joint_loss(law, point, motion, friction);
-    solution.losses = of_part(
-        surface_joint_loss(*solution.contact.surface, material, sample ? *sample : law, of_body,
-                           of_sample(problem.motions, ratio), friction, context.on_progress),
-        ratio);
+    solution.losses =
+        of_part(surface_joint_loss(*solution.contact.surface, material, sample ? *sample : law,
+                                   of_body, of_sample(problem.motions, ratio), friction,
+                                   context.on_progress, direction),
+                ratio);
   } else {
     solution.losses = losses_of_law(problem, law, point, context);
   }

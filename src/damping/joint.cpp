@@ -72,7 +72,8 @@ struct WholeContact {
     low = law.first_touch();
     if (!std::isfinite(low))
       for (double depth = force / law.normal_stiffness(high);; depth *= 2)
-        if (low = high - depth; !(law.tangential_stiffness(low) > negligible_part * stiffness)) break;
+        if (low = high - depth; !(law.tangential_stiffness(low) > negligible_part * stiffness))
+          break;
     const std::vector<double> breaks = breaks_between(law, low, high);
     const auto moment = [&](auto&& weight) {
       const detail::Integral found = detail::integrate(
@@ -367,9 +368,10 @@ NormalContactState solved(NormalContactState state) {
 
 // Force curve with one load, with its tangential stiffness in full stick.
 ForceCurve stuck_at(double pressure, const Surface& surface, const Material& material,
-                    const Progress& on_progress) {
+                    double direction, const Progress& on_progress) {
   SweepOptions sweep;
   sweep.stick = true;
+  sweep.direction = direction;
   sweep.contact.on_progress = on_progress;
   ForceCurve curve = sweep_pressures(surface, material, {pressure}, sweep);
   if (curve.samples.empty()) throw Interrupted("joint: interrupted");
@@ -380,8 +382,9 @@ ForceCurve stuck_at(double pressure, const Surface& surface, const Material& mat
 
 // Loss without slip under a normal oscillation about the indentation at a pressure.
 SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, const Surface& surface,
-                             const Material& material, const Progress& on_progress) {
-  const ForceCurve curve = stuck_at(pressure, surface, material, on_progress);
+                             const Material& material, double direction,
+                             const Progress& on_progress) {
+  const ForceCurve curve = stuck_at(pressure, surface, material, direction, on_progress);
   SurfaceDampingOptions options;
   options.hold = Hold::indentation;
   options.on_progress = on_progress;
@@ -442,8 +445,8 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
 std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
                                           const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
-                                          double friction_coefficient,
-                                          const Progress& on_progress) {
+                                          double friction_coefficient, const Progress& on_progress,
+                                          double direction) {
   std::vector<JointLoss> losses;
   for (const TangentialOscillation& motion : motions)
     losses.push_back(joint_loss(law, point, motion, friction_coefficient));
@@ -466,7 +469,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   // Uses K_t/K of one solved contact for all motions: the ratio hardly changes over the depth of
   // slip. The law would only interpolate K and K_t between loads.
   const ForceSample stuck =
-      stuck_at(high.force / area, surface, material, on_progress).samples.front();
+      stuck_at(high.force / area, surface, material, direction, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
   // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
   const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
@@ -502,7 +505,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
     const EqualFrequency as_normal{.normal_amplitude = depth / 2,
                                    .tangential_amplitude = loss.tangential_amplitude,
                                    .phase = pi / 2};
-    const SurfaceDamping found = damping_about(pressure, as_normal, surface, material, on_progress);
+    const SurfaceDamping found =
+        damping_about(pressure, as_normal, surface, material, direction, on_progress);
     loss.work_per_cycle = found.work_per_cycle / 2;
     loss.work_error =
         std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change);

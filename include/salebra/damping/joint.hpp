@@ -137,6 +137,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
 /// difference from the U of the law. (joint_loss() for a law whose loads are farther apart than c interpolates within the
 /// range of slip and states no error.)
 /// law      a law through a force curve of this surface and material that contains `point`
+/// direction  of the tangential motion and of the K_t of the law, from the x axis, rad
 /// throws   NotConverged if a contact did not converge; Interrupted; InvalidInput wherever
 ///          joint_loss() throws it
 /// cost     for each motion some nine contacts on the given cells and three on cells of half the
@@ -145,7 +146,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
                                           const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
                                           double friction_coefficient,
-                                          const Progress& on_progress = {});
+                                          const Progress& on_progress = {}, double direction = 0);
 
 /// Computes the loss of a tangential oscillation together with a normal oscillation about the
 /// indentation δ, or about the indentation at which the mean force is held. The motion is followed
