@@ -23,7 +23,8 @@ Dimension meaning(const std::string& object, const std::string& name) {
   static const std::vector<std::pair<Dimension, Names>> meanings{
       {length,
        words(
-           "size_x size_y mean rms_height mean_height mean_radius radius summit_rms Sa Sq Sp Sv Sz "
+           "size_x size_y s_filter l_filter Ra Rq Rz Rsm Ra_deviation Rq_deviation Rz_deviation "
+           "Rsm_deviation mean rms_height mean_height mean_radius radius summit_rms Sa Sq Sp Sv Sz "
            "Sal Sk Spk Svk pixel_limit tip_limit resolution wavelength rolloff.value rolloff.low "
            "rolloff.high short_cutoff.value short_cutoff.low short_cutoff.high mean_gap separation "
            "indentation tangential normal_amplitude stabilising_amplitude contact_radius "

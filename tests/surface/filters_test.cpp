@@ -83,10 +83,10 @@ TEST_CASE("Edges and holes renormalise the weights of the standard", "[filters]"
   const Field smooth = filtered(patch, {.s_filter = 0.8}).heights;
   const Field expected = weighted_means(patch, 0.8);
   CHECK((smooth.isNaN() == expected.isNaN()).all());
-  const auto difference = (smooth - expected).abs();
+  const Field difference = (smooth - expected).abs();
   CHECK(difference.isNaN().select(0.0, difference).maxCoeff() < 2e-5);
   // What one filter keeps, the other removes.
-  const auto sum = (smooth + filtered(patch, {.l_filter = 0.8}).heights - patch.heights).abs();
+  const Field sum = (smooth + filtered(patch, {.l_filter = 0.8}).heights - patch.heights).abs();
   CHECK(sum.isNaN().select(0.0, sum).maxCoeff() < 1e-12);
 }
 
