@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 
@@ -46,10 +46,9 @@ constexpr double steepest = 6;      ///< slope of ln P over ln u of a cut-off
 /// known surfaces.
 constexpr double per_mode = 0.17;
 constexpr double tolerance = 0.004;  ///< error of a harmonic of a ring from what is not modelled
-/// Greatest amplitude of the fourth harmonic of an elliptic spectrum, greatest differences of ln of
-/// the stretch between wavelengths and between scans, and the number of standard errors that they
-/// must exceed to be refused. Elliptic spectra of
-/// known surfaces stay below half of these limits.
+/// Greatest fourth harmonic of an elliptic spectrum, greatest differences of ln of the stretch between
+/// wavelengths and between scans, and the number of standard errors that they must exceed to be
+/// refused. Elliptic spectra of known surfaces stay below half of these limits.
 constexpr double most_fourth = 0.1, most_trend = 0.25, most_difference = 0.4, clearly = 6;
 constexpr double tip_limit = 0.08;  ///< of tip radius times curvature, as in the fit
 
@@ -129,7 +128,7 @@ struct ScanEstimates {
   std::vector<double> wavenumber;  // rad/m, elliptic
   std::vector<Estimate> rings;
 
-  Estimate sum(double from = 0, double to = 1e300) const {
+  Estimate sum(double from = 0, double to = std::numeric_limits<double>::infinity()) const {
     Estimate total;
     for (std::size_t k = 0; k < rings.size(); ++k)
       if (wavenumber[k] >= from && wavenumber[k] < to) total.add(rings[k]);
@@ -176,7 +175,10 @@ class LaySearch {
     for (std::size_t group = 0; group < groups.size(); ++group)
       for (const std::size_t scan : groups[group]) {
         const ScanSpectrum& one = scans[scan];
-        if (one.profile() || one.hann_powers.empty()) continue;
+        if (one.profile()) continue;
+        require(std::ssize(one.hann_powers) == one.grid.nx * (one.grid.ny / 2 + 1), "scans",
+                one.hann_powers.size(),
+                "powers of modes do not belong to the grid; use what scan_spectrum() returns");
         const bool lens = one.instrument.kind == Instrument::optical;
         const double sigma =
             lens ? one.instrument.resolution / std::sqrt(8 * std::numbers::ln2) : 0;
@@ -204,7 +206,7 @@ class LaySearch {
           fmt::format("have a lay above {:.2g} to 1, of which their grids show too little; give "
                       "maps of more points",
                       std::exp(none.length())));
-    found_.greatest_stretch = std::exp(log_stretch + two_sided * error);
+    if (end.weight > 0) found_.greatest_stretch = std::exp(log_stretch + two_sided * error);
     if (!significant) return std::move(found_);
     found_.lay = lay;
     found_.log_stretch_error = error;
@@ -378,7 +380,7 @@ class LaySearch {
   }
 
   static Estimate sum_of(const std::vector<ScanEstimates>& all, double from = 0,
-                         double to = 1e300) {
+                         double to = std::numeric_limits<double>::infinity()) {
     Estimate sum;
     for (const ScanEstimates& one : all) sum.add(one.sum(from, to));
     return sum;
@@ -386,7 +388,8 @@ class LaySearch {
 
   /// The ellipse at which the estimating equations of some maps vanish, with the rings between two
   /// elliptic wave numbers.
-  Ellipse solved(const std::vector<Map>& maps, double from = 0, double to = 1e300) const {
+  Ellipse solved(const std::vector<Map>& maps, double from = 0,
+                 double to = std::numeric_limits<double>::infinity()) const {
     Ellipse ellipse, before;
     double delta = 0, eta = 0;
     for (int step = 0; step < 60; ++step) {
