@@ -412,16 +412,24 @@ class LaySearch {
     return ellipse;
   }
 
-  /// Square root of the scatter of the maps' estimates over what their modes explain, at least 1.
-  static double scatter(const std::vector<ScanEstimates>& all) {
-    const Estimate mean = sum_of(all);
-    double squares = 0, freedom = -2;
-    for (const ScanEstimates& scan : all) {
-      const Estimate one = scan.sum();
-      if (one.weight == 0) continue;
-      squares +=
-          one.weight * (std::pow(one.delta - mean.delta, 2) + std::pow(one.eta - mean.eta, 2));
-      freedom += 2;
+  /// Square root of the scatter of the maps' estimates over what their modes explain, at least 1:
+  /// about the mean of all maps or, not to count a trend with the wavelength, about that of each
+  /// group.
+  double scatter(const std::vector<ScanEstimates>& all, bool of_groups = false) const {
+    double squares = 0, freedom = 0;
+    for (std::size_t group = 0; group < (of_groups ? groups_ : 1); ++group) {
+      Estimate mean;
+      std::vector<Estimate> members;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (!of_groups || maps_[k].group == group)
+          if (const Estimate one = all[k].sum(); one.weight > 0) {
+            members.push_back(one);
+            mean.add(one);
+          }
+      for (const Estimate& one : members)
+        squares +=
+            one.weight * (std::pow(one.delta - mean.delta, 2) + std::pow(one.eta - mean.eta, 2));
+      freedom += 2 * std::max(0.0, static_cast<double>(members.size()) - 1);
     }
     return freedom < 2 ? 1 : std::sqrt(std::max(1.0, squares / freedom));
   }
@@ -477,8 +485,9 @@ class LaySearch {
     const std::vector<ScanEstimates> all = estimates(ellipse, maps_);
     const Estimate sum = sum_of(all);
     const double fourth = std::hypot(sum.c4, sum.s4);
-    const bool other = fourth > most_fourth &&
-                       fourth > clearly * scatter(all) / std::sqrt(2 * std::max(sum.modes, 1e-9));
+    const bool other =
+        fourth > most_fourth &&
+        fourth > clearly * scatter(all, true) / std::sqrt(2 * std::max(sum.modes, 1e-9));
     if (other) refuse_crossing();
     refuse_trend(all);
     if (other)
@@ -539,7 +548,7 @@ void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
       highest = std::max(highest, q * 1.001);
     }
   constexpr double ratio = 1.6;
-  const double inflation = scatter(all);
+  const double inflation = scatter(all, true);
   std::vector<Band> bands;
   for (double q = lowest; q < highest; q *= ratio)
     if (const Estimate sum = sum_of(all, q, q * ratio); sum.weight > 0)
@@ -550,9 +559,7 @@ void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
     for (std::size_t j = i + 1; j < bands.size(); ++j) {
       const Estimate &a = bands[i].sum, &b = bands[j].sum;
       const double off = std::hypot(a.delta - b.delta, a.eta - b.eta);
-      // The scatter between scans includes that between the wavelengths of different scans, so that
-      // only half of it counts against a trend.
-      const double error = std::hypot(a.error(), b.error()) * std::sqrt(inflation);
+      const double error = std::hypot(a.error(), b.error()) * inflation;
       if (off < most_trend || off < clearly * error || off < furthest) continue;
       furthest = off;
       first = &bands[i];
@@ -622,8 +629,12 @@ void LaySearch::refuse_crossing() const {
     for (std::size_t k = from; k <= to; ++k) least = std::min(least, profile[k % sectors]);
     return least;
   };
-  const double lower = profile[maxima[1]];
-  if (std::max(lowest(a, b), lowest(b, a + sectors)) > 0.85 * lower) return;
+  // A lay of its own, and no bump of the profile of another.
+  const double upper = profile[maxima[0]], lower = profile[maxima[1]],
+               range = upper - std::ranges::min(profile);
+  if (lower < upper - 0.7 * range ||
+      std::max(lowest(a, b), lowest(b, a + sectors)) > lower - 0.05 * range)
+    return;
   const auto direction = [](std::size_t sector) {
     // The lay is at right angles to the wave vectors.
     return std::fmod((static_cast<double>(sector) + 0.5) * 180 / sectors + 90, 180.0);
