@@ -55,7 +55,8 @@ void bind_scans(nb::module_& m) {
   described_class<ScanSpectrum>(
       m, "ScanSpectrum",
       "Data of one scan for a surface twin: its binned periodogram and its instrument. wavelength, "
-      "rms_height, skewness and kurtosis describe the bands of its heights.");
+      "rms_height, skewness and kurtosis describe the bands of its heights; tapered_powers and "
+      "hann_powers are those of its modes.");
   m.def(
       "scan_spectrum",
       [](const BoundSurface& surface, const Choice<Instrument>& instrument, double resolution,
@@ -72,7 +73,7 @@ void bind_scans(nb::module_& m) {
       nb::arg("height_calibration") = ScanInstrument{}.height_calibration,
       nb::arg("scan_calibration") = ScanInstrument{}.scan_calibration,
       nb::arg("line_drift") = nb::none(), nb::arg("name") = "", nb::arg("weight") = 1.0,
-      R"(Reduces a scan, or a line profile, to some hundred numbers for :class:`SurfaceTwin`, so that only one scan is in memory at a time.
+      R"(Reduces a scan, or a line profile, to its periodogram for :class:`SurfaceTwin`, half of the size of its heights, so that only one scan is in memory at a time.
 
 Parameters
 ----------

@@ -544,7 +544,9 @@ class TwinRun {
   void replace_by_table() {
     const double misfit = forms_.best.misfit();
     const bool asked = options_.form == SpectrumForm::table;
-    if (!asked && (options_.form || !(misfit > SurfaceTwin::refused_above))) return;
+    // Scans of skew heights scatter more about their mean spectrum.
+    const double limit = (skew_ ? 2 : 1) * SurfaceTwin::refused_above;
+    if (!asked && (options_.form || !(misfit > limit))) return;
     // A tabulated spectrum has no roll-off of its own, so the self-affine law decides whether the
     // scans contain a plateau.
     plateau_ =

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 
@@ -46,10 +46,9 @@ constexpr double steepest = 6;      ///< slope of ln P over ln u of a cut-off
 /// known surfaces.
 constexpr double per_mode = 0.17;
 constexpr double tolerance = 0.004;  ///< error of a harmonic of a ring from what is not modelled
-/// Greatest amplitude of the fourth harmonic of an elliptic spectrum, greatest differences of ln of
-/// the stretch between wavelengths and between scans, and the number of standard errors that they
-/// must exceed to be refused. Elliptic spectra of
-/// known surfaces stay below half of these limits.
+/// Greatest fourth harmonic of an elliptic spectrum, greatest differences of ln of the stretch between
+/// wavelengths and between scans, and the number of standard errors that they must exceed to be
+/// refused. Elliptic spectra of known surfaces stay below half of these limits.
 constexpr double most_fourth = 0.1, most_trend = 0.25, most_difference = 0.4, clearly = 6;
 constexpr double tip_limit = 0.08;  ///< of tip radius times curvature, as in the fit
 
@@ -129,7 +128,7 @@ struct ScanEstimates {
   std::vector<double> wavenumber;  // rad/m, elliptic
   std::vector<Estimate> rings;
 
-  Estimate sum(double from = 0, double to = 1e300) const {
+  Estimate sum(double from = 0, double to = std::numeric_limits<double>::infinity()) const {
     Estimate total;
     for (std::size_t k = 0; k < rings.size(); ++k)
       if (wavenumber[k] >= from && wavenumber[k] < to) total.add(rings[k]);
@@ -176,7 +175,10 @@ class LaySearch {
     for (std::size_t group = 0; group < groups.size(); ++group)
       for (const std::size_t scan : groups[group]) {
         const ScanSpectrum& one = scans[scan];
-        if (one.profile() || one.hann_powers.empty()) continue;
+        if (one.profile()) continue;
+        require(std::ssize(one.hann_powers) == one.grid.nx * (one.grid.ny / 2 + 1), "scans",
+                one.hann_powers.size(),
+                "powers of modes do not belong to the grid; use what scan_spectrum() returns");
         const bool lens = one.instrument.kind == Instrument::optical;
         const double sigma =
             lens ? one.instrument.resolution / std::sqrt(8 * std::numbers::ln2) : 0;
@@ -204,7 +206,7 @@ class LaySearch {
           fmt::format("have a lay above {:.2g} to 1, of which their grids show too little; give "
                       "maps of more points",
                       std::exp(none.length())));
-    found_.greatest_stretch = std::exp(log_stretch + two_sided * error);
+    if (end.weight > 0) found_.greatest_stretch = std::exp(log_stretch + two_sided * error);
     if (!significant) return std::move(found_);
     found_.lay = lay;
     found_.log_stretch_error = error;
@@ -378,7 +380,7 @@ class LaySearch {
   }
 
   static Estimate sum_of(const std::vector<ScanEstimates>& all, double from = 0,
-                         double to = 1e300) {
+                         double to = std::numeric_limits<double>::infinity()) {
     Estimate sum;
     for (const ScanEstimates& one : all) sum.add(one.sum(from, to));
     return sum;
@@ -386,7 +388,8 @@ class LaySearch {
 
   /// The ellipse at which the estimating equations of some maps vanish, with the rings between two
   /// elliptic wave numbers.
-  Ellipse solved(const std::vector<Map>& maps, double from = 0, double to = 1e300) const {
+  Ellipse solved(const std::vector<Map>& maps, double from = 0,
+                 double to = std::numeric_limits<double>::infinity()) const {
     Ellipse ellipse, before;
     double delta = 0, eta = 0;
     for (int step = 0; step < 60; ++step) {
@@ -409,16 +412,24 @@ class LaySearch {
     return ellipse;
   }
 
-  /// Square root of the scatter of the maps' estimates over what their modes explain, at least 1.
-  static double scatter(const std::vector<ScanEstimates>& all) {
-    const Estimate mean = sum_of(all);
-    double squares = 0, freedom = -2;
-    for (const ScanEstimates& scan : all) {
-      const Estimate one = scan.sum();
-      if (one.weight == 0) continue;
-      squares +=
-          one.weight * (std::pow(one.delta - mean.delta, 2) + std::pow(one.eta - mean.eta, 2));
-      freedom += 2;
+  /// Square root of the scatter of the maps' estimates over what their modes explain, at least 1:
+  /// about the mean of all maps or, not to count a trend with the wavelength, about that of each
+  /// group.
+  double scatter(const std::vector<ScanEstimates>& all, bool of_groups = false) const {
+    double squares = 0, freedom = 0;
+    for (std::size_t group = 0; group < (of_groups ? groups_ : 1); ++group) {
+      Estimate mean;
+      std::vector<Estimate> members;
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (!of_groups || maps_[k].group == group)
+          if (const Estimate one = all[k].sum(); one.weight > 0) {
+            members.push_back(one);
+            mean.add(one);
+          }
+      for (const Estimate& one : members)
+        squares +=
+            one.weight * (std::pow(one.delta - mean.delta, 2) + std::pow(one.eta - mean.eta, 2));
+      freedom += 2 * std::max(0.0, static_cast<double>(members.size()) - 1);
     }
     return freedom < 2 ? 1 : std::sqrt(std::max(1.0, squares / freedom));
   }
@@ -474,8 +485,9 @@ class LaySearch {
     const std::vector<ScanEstimates> all = estimates(ellipse, maps_);
     const Estimate sum = sum_of(all);
     const double fourth = std::hypot(sum.c4, sum.s4);
-    const bool other = fourth > most_fourth &&
-                       fourth > clearly * scatter(all) / std::sqrt(2 * std::max(sum.modes, 1e-9));
+    const bool other =
+        fourth > most_fourth &&
+        fourth > clearly * scatter(all, true) / std::sqrt(2 * std::max(sum.modes, 1e-9));
     if (other) refuse_crossing();
     refuse_trend(all);
     if (other)
@@ -536,7 +548,7 @@ void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
       highest = std::max(highest, q * 1.001);
     }
   constexpr double ratio = 1.6;
-  const double inflation = scatter(all);
+  const double inflation = scatter(all, true);
   std::vector<Band> bands;
   for (double q = lowest; q < highest; q *= ratio)
     if (const Estimate sum = sum_of(all, q, q * ratio); sum.weight > 0)
@@ -547,9 +559,7 @@ void LaySearch::refuse_trend(const std::vector<ScanEstimates>& all) const {
     for (std::size_t j = i + 1; j < bands.size(); ++j) {
       const Estimate &a = bands[i].sum, &b = bands[j].sum;
       const double off = std::hypot(a.delta - b.delta, a.eta - b.eta);
-      // The scatter between scans includes that between the wavelengths of different scans, so that
-      // only half of it counts against a trend.
-      const double error = std::hypot(a.error(), b.error()) * std::sqrt(inflation);
+      const double error = std::hypot(a.error(), b.error()) * inflation;
       if (off < most_trend || off < clearly * error || off < furthest) continue;
       furthest = off;
       first = &bands[i];
@@ -619,8 +629,12 @@ void LaySearch::refuse_crossing() const {
     for (std::size_t k = from; k <= to; ++k) least = std::min(least, profile[k % sectors]);
     return least;
   };
-  const double lower = profile[maxima[1]];
-  if (std::max(lowest(a, b), lowest(b, a + sectors)) > 0.85 * lower) return;
+  // A lay of its own, and no bump of the profile of another.
+  const double upper = profile[maxima[0]], lower = profile[maxima[1]],
+               range = upper - std::ranges::min(profile);
+  if (lower < upper - 0.7 * range ||
+      std::max(lowest(a, b), lowest(b, a + sectors)) > lower - 0.05 * range)
+    return;
   const auto direction = [](std::size_t sector) {
     // The lay is at right angles to the wave vectors.
     return std::fmod((static_cast<double>(sector) + 0.5) * 180 / sectors + 90, 180.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct FoundLay {
   Lay lay;                       ///< stretch 1 unless the lay is significant (99 %)
   double log_stretch_error = 0;  ///< standard errors of ln of the stretch, and of the angle, rad
   double angle_error = 0;
-  double greatest_stretch = 1;     ///< 95 % limit of a lay that is not significant
+  double greatest_stretch = std::numeric_limits<
+      double>::quiet_NaN();        ///< 95 % limit of a lay that is not significant; NaN: unknown
   std::vector<bool> left_out;      ///< scans with another lay, and profiles of a surface with a lay
   std::vector<std::string> notes;  ///< why they are left out
 };

@@ -114,7 +114,7 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
       // Of skew heights, the bins beyond it contain sums of shorter and longer waves, which say
       // little about it.
       const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 1.4;
-      const double s = sums                         ? 4 * beyond_cutoff
+      const double s = sums                         ? 10 * beyond_cutoff
                        : edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
                        : q > 0.8 * cutoff           ? beyond_cutoff
                                                     : everywhere;

@@ -204,7 +204,8 @@ constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
 /// Surface twin: the surface from which several scans by several instruments are samples. It may have
 /// a lay and heights that are not Gaussian.
 struct SurfaceTwin {
-  static constexpr double refused_above = 2.2;  ///< misfit above which a form is rejected
+  /// Misfit above which a form is rejected, of skew heights twice that.
+  static constexpr double refused_above = 2.2;
 
   SpectrumForm form = SpectrumForm::corner;
   TwinParameter hurst, rolloff, short_cutoff;  ///< NaN for SpectrumForm::table
