@@ -215,6 +215,8 @@ void lose(const DampingArguments& arguments, Session& session) {
     session.inform(
         "the two frequencies have no common period: the power is a mean over a long time");
   Json object = Json::object();
+  // The direction is the first column of the rows that it distinguishes.
+  if (directions > 1) object["direction"] = json_of(answer.results)["direction"];
   if (!values.empty()) {
     Json& rows = object[quantity] = Json::array();
     for (std::size_t k = 0; k < directions; ++k)

@@ -311,12 +311,11 @@ void run(const OscillateArguments& arguments, Session& session) {
     std::optional<detail::StopCheck> stops{interrupted};
     const OscillationCase contact = case_of(arguments, shape, session);
     const std::vector<double> directions = directions_of_case(arguments, contact.body.surface);
-    for (const double direction : directions) {
+    for (std::size_t k = 0; k < directions.size(); ++k) {
       if (!stops) stops.emplace(interrupted);
-      const bool across = &direction == &directions.front();
-      names.push_back(!shape.empty() ? shape : across ? "across" : "along");
+      names.push_back(!shape.empty() ? shape : k == 0 ? "across" : "along");
       const OscillationRoutes routes = routes_of(
-          arguments, contact, shape, direction,
+          arguments, contact, shape, directions[k],
           part_of(session.progress(), outcomes.size(), shapes.size() * directions.size()));
       OscillationOutcome& outcome =
           outcomes.emplace_back(oscillation_by_intervals(contact, routes));

@@ -161,7 +161,10 @@ void slide(const SlidingArguments& arguments, Session& session) {
   assumptions.list = assumptions.cases.size() > 1;
   session.warn(found.warnings);
 
-  Json answer = Json::object(), columns = json_of(found.points);
+  Json answer = Json::object(), columns = Json::object(), all = json_of(found.points);
+  // The direction is the first column of the rows that it distinguishes.
+  if (contacts.size() > 1) columns["direction"] = all["direction"];
+  columns.add(all);
   if (contacts.size() == 1 && columns.contains("direction")) {
     answer["direction"] = columns["direction"][0];
     columns.erase("direction");

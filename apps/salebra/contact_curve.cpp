@@ -50,7 +50,11 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
 }  // namespace
 
 Json to_json(const ForceCurve& curve) {
-  Json object = json_of(curve.samples, curve.nominal_area);
+  const Json columns = json_of(curve.samples, curve.nominal_area);
+  Json object = Json::object();
+  // The direction is the first column of the rows that it distinguishes.
+  if (by_direction(curve).size() > 1) object["direction"] = columns["direction"];
+  object.add(columns);
   const auto unknown = [](const Json& value) { return !std::isfinite(value.number()); };
   for (const char* name :
        {"separation", "normal_stiffness_per_area", "tangential_stiffness_per_area"})

@@ -221,7 +221,7 @@ class OneContact {
       answer_[name] = columns[name];
       beside_.push_back({find_quantity(name), {columns[name].number()}});
     }
-    for (const char* name : {"tangential_stiffness", "direction"}) {
+    for (const char* name : {"direction", "tangential_stiffness"}) {
       if (!std::isfinite(material_.tangential_modulus) || !rows.contains(name)) continue;
       answer_[name] = samples.size() == 1 ? columns[name] : rows[name];
       CurveColumn& column = beside_.emplace_back(find_quantity(name));

@@ -386,7 +386,7 @@ class Point {
       if (const auto text = file_.text_attribute(where_ + "damping", name)) json[name] = *text;
     for (const char* name :
          {"normal_amplitude", "angular_frequency", "drag_velocity", "tangential_amplitude", "phase",
-          "modulus_ratio", "contact_modulus", "friction_coefficient"})
+          "modulus_ratio", "contact_modulus", "friction_coefficient", "direction"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
     return json;

@@ -234,6 +234,8 @@ void write_damping(Table table, const StudyResult& result) {
     table.put(quantity, values, {"model"});
   });
   ResultGroup& group = table.group();
+  if (const double direction = result.direction(); !std::isnan(direction))
+    group.attribute("direction", direction);
   group.attribute("interval_method", result.interval_method());
   group.attribute("law",
                   "Eq. (16) (drag) or Eq. (12) with F'' = F/l^2, l fitted to the model's curve");
@@ -272,7 +274,6 @@ void write_solution(Table table, const StudyResult& result, const StudySolution&
                                      {"regime", &regimes}})
     table.put(find_quantity(name), *values, {"pressure"});
   ResultGroup& group = table.group();
-  if (!std::isnan(answer.direction)) group.attribute("direction", answer.direction);
   group.attribute("validity", std::string(name_of(answer.validity)));
   group.attribute("verdicts", in_words(answer.verdicts));
   group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");

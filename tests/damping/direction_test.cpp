@@ -44,7 +44,8 @@ Surface ground_surface(Index n, Index stretch, std::uint64_t seed = 1) {
   for (Index i = 0; i < surface.grid.nx; ++i) {
     Eigen::ArrayXd row = Eigen::ArrayXd::Zero(n);
     for (Index j = 0; j < n; ++j) {
-      const Index distance = (i - j * stretch % surface.grid.nx + surface.grid.nx) % surface.grid.nx;
+      const Index distance =
+          (i - j * stretch % surface.grid.nx + surface.grid.nx) % surface.grid.nx;
       row += weights[static_cast<std::size_t>(distance)] * whole.heights.row(j).transpose();
     }
     surface.heights.row(i) = row.transpose();
@@ -66,8 +67,7 @@ std::array<double, 2> ratios(const Surface& surface, const Material& material, d
   for (std::size_t k = 0; k < 2; ++k) {
     const ForceSample& sample = curves[k].samples[0];
     REQUIRE(sample.converged);
-    found[k] =
-        sample.tangential_stiffness / (material.modulus_ratio() * sample.normal_stiffness);
+    found[k] = sample.tangential_stiffness / (material.modulus_ratio() * sample.normal_stiffness);
   }
   return found;
 }
@@ -93,8 +93,8 @@ double dense_stiffness(const ContactSet& contact, const Grid2D& grid, double poi
       const bool own = 2 * a == grid.nx || 2 * b == grid.ny;
       for (Index i = 0; i < grid.nx; ++i)
         for (Index j = 0; j < grid.ny; ++j) {
-          const double wave = std::cos(2 * pi * (double(a * i) / double(grid.nx) +
-                                                 double(b * j) / double(grid.ny)));
+          const double wave = std::cos(
+              2 * pi * (double(a * i) / double(grid.nx) + double(b * j) / double(grid.ny)));
           xx(i, j) += scale * wave * (1 - poisson * qx * qx / (q * q));
           yy(i, j) += scale * wave * (1 - poisson * qy * qy / (q * q));
           if (!own) xy(i, j) -= scale * wave * poisson * qx * qy / (q * q);
@@ -197,8 +197,7 @@ TEST_CASE("Two directions of one call are those of two calls, and cost less", "[
   const double friction = GENERATE(std::numeric_limits<double>::quiet_NaN(), 0.3);
   const SurfaceDampingOptions options{
       .hold = Hold::force, .friction_coefficient = friction, .excursion = 1e-5};
-  const auto curves =
-      sweep_directions(surface, material, pressures, {pi / 2, 0}, {.stick = true});
+  const auto curves = sweep_directions(surface, material, pressures, {pi / 2, 0}, {.stick = true});
   const auto seconds = [](const auto& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
@@ -223,15 +222,13 @@ TEST_CASE("Two directions of one call are those of two calls, and cost less", "[
 
 TEST_CASE("The loss in a direction is that of the interval quadrature and the simulation",
           "[direction]") {
-  const Surface surface = ground_surface(24, 3);
+  const Surface surface = ground_surface(48, 3);
   const Material material = material_of(0.4);
   const double pressure = 0.05 * slope * modulus;
   const EqualFrequency motion{3e-7, 1e-7, pi / 2, 1e5};
   const auto curves = sweep_directions(
       surface, material, {0.8 * pressure, pressure, 1.2 * pressure}, {pi / 2, 0}, {.stick = true});
-  // On the given cells, as the other methods do.
-  const auto losses =
-      surface_damping(surface, material, motion, curves, {.intervals = 16, .refinements = 0});
+  const auto losses = surface_damping(surface, material, motion, curves, {.keep_cells = true});
   const ContactSets contacts = boundary_element_contact_sets(surface, modulus);
   const double center = press(surface, modulus, at_pressure(pressure)).indentation;
   double quadrature[2], simulated[2];
@@ -242,7 +239,7 @@ TEST_CASE("The loss in a direction is that of the interval quadrature and the si
     REQUIRE(result.converged());
     CHECK(result.direction == curves[d].direction());
     quadrature[d] = result.work_per_cycle;
-    CycleOptions cycle{.steps = 96, .direction = losses[d][1].direction};
+    CycleOptions cycle{.steps = 64, .direction = losses[d][1].direction};
     simulated[d] =
         simulate_cycle(contacts, surface.grid, material, trajectory_of(motion, center), cycle)
             .work_per_cycle;
@@ -250,7 +247,11 @@ TEST_CASE("The loss in a direction is that of the interval quadrature and the si
   // Cells enter one at a time, so each loss has an error of some per cent, most of which is the same
   // in both directions.
   const double ratio = losses[0][1].work_per_cycle / losses[1][1].work_per_cycle;
+  CAPTURE(losses[0][1].work_per_cycle, losses[0][1].work_per_cycle_error(), quadrature[0],
+          simulated[0]);
+  CAPTURE(losses[1][1].work_per_cycle, losses[1][1].work_per_cycle_error(), quadrature[1],
+          simulated[1]);
   CHECK(ratio > 1.1);
-  CHECK(quadrature[0] / quadrature[1] == Approx(ratio).epsilon(0.03));
-  CHECK(simulated[0] / simulated[1] == Approx(ratio).epsilon(0.03));
+  CHECK(quadrature[0] / quadrature[1] == Approx(ratio).epsilon(0.05));
+  CHECK(simulated[0] / simulated[1] == Approx(quadrature[0] / quadrature[1]).epsilon(0.01));
 }
