@@ -72,7 +72,8 @@ struct WholeContact {
     low = law.first_touch();
     if (!std::isfinite(low))
       for (double depth = force / law.normal_stiffness(high);; depth *= 2)
-        if (low = high - depth; !(law.tangential_stiffness(low) > negligible_part * stiffness)) break;
+        if (low = high - depth; !(law.tangential_stiffness(low) > negligible_part * stiffness))
+          break;
     const std::vector<double> breaks = breaks_between(law, low, high);
     const auto moment = [&](auto&& weight) {
       const detail::Integral found = detail::integrate(

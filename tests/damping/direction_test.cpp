@@ -44,7 +44,8 @@ Surface ground_surface(Index n, Index stretch, std::uint64_t seed = 1) {
   for (Index i = 0; i < surface.grid.nx; ++i) {
     Eigen::ArrayXd row = Eigen::ArrayXd::Zero(n);
     for (Index j = 0; j < n; ++j) {
-      const Index distance = (i - j * stretch % surface.grid.nx + surface.grid.nx) % surface.grid.nx;
+      const Index distance =
+          (i - j * stretch % surface.grid.nx + surface.grid.nx) % surface.grid.nx;
       row += weights[static_cast<std::size_t>(distance)] * whole.heights.row(j).transpose();
     }
     surface.heights.row(i) = row.transpose();
@@ -66,8 +67,7 @@ std::array<double, 2> ratios(const Surface& surface, const Material& material, d
   for (std::size_t k = 0; k < 2; ++k) {
     const ForceSample& sample = curves[k].samples[0];
     REQUIRE(sample.converged);
-    found[k] =
-        sample.tangential_stiffness / (material.modulus_ratio() * sample.normal_stiffness);
+    found[k] = sample.tangential_stiffness / (material.modulus_ratio() * sample.normal_stiffness);
   }
   return found;
 }
@@ -93,8 +93,8 @@ double dense_stiffness(const ContactSet& contact, const Grid2D& grid, double poi
       const bool own = 2 * a == grid.nx || 2 * b == grid.ny;
       for (Index i = 0; i < grid.nx; ++i)
         for (Index j = 0; j < grid.ny; ++j) {
-          const double wave = std::cos(2 * pi * (double(a * i) / double(grid.nx) +
-                                                 double(b * j) / double(grid.ny)));
+          const double wave = std::cos(
+              2 * pi * (double(a * i) / double(grid.nx) + double(b * j) / double(grid.ny)));
           xx(i, j) += scale * wave * (1 - poisson * qx * qx / (q * q));
           yy(i, j) += scale * wave * (1 - poisson * qy * qy / (q * q));
           if (!own) xy(i, j) -= scale * wave * poisson * qx * qy / (q * q);
@@ -197,8 +197,7 @@ TEST_CASE("Two directions of one call are those of two calls, and cost less", "[
   const double friction = GENERATE(std::numeric_limits<double>::quiet_NaN(), 0.3);
   const SurfaceDampingOptions options{
       .hold = Hold::force, .friction_coefficient = friction, .excursion = 1e-5};
-  const auto curves =
-      sweep_directions(surface, material, pressures, {pi / 2, 0}, {.stick = true});
+  const auto curves = sweep_directions(surface, material, pressures, {pi / 2, 0}, {.stick = true});
   const auto seconds = [](const auto& work) {
     const auto start = std::chrono::steady_clock::now();
     work();

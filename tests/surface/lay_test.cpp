@@ -292,7 +292,8 @@ TEST_CASE("Only a lay and skew heights that matter are warned of", "[lay]") {
 }
 
 TEST_CASE("Directions are angles, or those of a lay, which the surface must have", "[lay]") {
-  const SurfaceLay lay{.ratio = 6, .ratio_low = 5, .ratio_high = 7, .angle = 0.2, .significant = true};
+  const SurfaceLay lay{
+      .ratio = 6, .ratio_low = 5, .ratio_high = 7, .angle = 0.2, .significant = true};
   const SurfaceLay none{.ratio = 1.1, .ratio_low = 1, .ratio_high = 1.3};
   using enum LayDirection;
   CHECK(directions_of(automatic, lay) == std::vector<double>{0.2 + pi / 2, 0.2});
@@ -301,8 +302,9 @@ TEST_CASE("Directions are angles, or those of a lay, which the surface must have
   CHECK(directions_of(along, lay) == std::vector<double>{0.2});
   CHECK(directions_of(automatic, none) == std::vector<double>{0});
   for (const LayDirection direction : {across, along, both}) {
-    CHECK_THROWS_WITH(directions_of(direction, none),
-                      Catch::Contains("ratio of slopes above 1.5; that of this surface is 1.1 (1 to 1.3)"));
+    CHECK_THROWS_WITH(
+        directions_of(direction, none),
+        Catch::Contains("ratio of slopes above 1.5; that of this surface is 1.1 (1 to 1.3)"));
     CHECK_THROWS_WITH(directions_of(direction, SurfaceLay{}), Catch::Contains("cannot be found"));
   }
   // Opposite directions are the same.
@@ -312,8 +314,9 @@ TEST_CASE("Directions are angles, or those of a lay, which the surface must have
   CHECK(direction_choice("across", "direction") == DirectionChoice(across));
   CHECK(direction_choice("auto", "direction") == DirectionChoice(automatic));
   CHECK(std::get<double>(direction_choice("30deg", "direction")) == Approx(pi / 6));
-  CHECK_THROWS_WITH(direction_choice("upwards", "--direction"),
-                    Catch::Contains("--direction: 'upwards': must be across, along, both, or an angle"));
+  CHECK_THROWS_WITH(
+      direction_choice("upwards", "--direction"),
+      Catch::Contains("--direction: 'upwards': must be across, along, both, or an angle"));
   CHECK_THROWS_AS(direction_choice("30mm", "direction"), InvalidInput);
   CHECK(direction_in_words(0) == "along x");
   CHECK(direction_in_words(pi / 2) == "along y");
