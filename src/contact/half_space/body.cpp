@@ -221,7 +221,9 @@ Body Body::tabulated(const ComplianceTable& table) {
   Parts parts{.response = [=, normal = curve_of(table.normal), in_plane = curve_of(table.in_plane),
                            across = curve_of(table.across), first = q.front(),
                            last = q.back()](double wave) {
-    require(wave >= first && wave <= last, "wave_number", wave,
+    // A solve asks for the waves of its grid in other units, with rounding.
+    constexpr double rounding = 1e-12;
+    require(wave >= first * (1 - rounding) && wave <= last * (1 + rounding), "wave_number", wave,
             "is beyond the table of the body; let the table cover all waves of the grid");
     const double log_q = std::clamp(std::log(wave), normal->front(), normal->back());
     return SurfaceCompliance{value(normal, log_q), value(in_plane, log_q), value(across, log_q),
@@ -250,6 +252,7 @@ Body Body::measured_from(Datum datum) const {
       "datum", name_of(datum),
       "needs a rigid base, because a uniform load displaces a half-space without limit; measure "
       "from the mean plane");
+  if (datum == parts_->datum) return *this;
   Parts changed = *parts_;
   changed.datum = datum;
   return Body(std::move(changed));

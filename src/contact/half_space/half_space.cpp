@@ -171,15 +171,16 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
 
 namespace detail {
 
-NormalResponse::NormalResponse(const Body& pressed, const Grid2D& physical)
+NormalResponse::NormalResponse(const Body& pressed, const Grid2D& physical, bool with_uniform)
     : body(pressed),
       cell(std::sqrt(physical.cell_area())),
-      modulus(reference_modulus(pressed, physical)) {}
+      modulus(reference_modulus(pressed, physical)),
+      uniform(with_uniform) {}
 
 bool NormalResponse::operator==(const NormalResponse& other) const {
   const bool same_body = body && other.body ? body->same_as(*other.body) : !body && !other.body;
-  return same_body && contact_modulus == other.contact_modulus && cell == other.cell &&
-         modulus == other.modulus;
+  return same_body && uniform == other.uniform && contact_modulus == other.contact_modulus &&
+         cell == other.cell && modulus == other.modulus;
 }
 
 void require_pressable(const Body& body, const Grid2D& grid, Boundary boundary) {

@@ -17,14 +17,17 @@ struct NormalResponse {
   double contact_modulus = 1;     // of a half-space
   std::optional<Body> body = {};  // none: the half-space
   double cell = 1, modulus = 1;   // m and Pa
+  bool uniform = false;           // whether a uniform load displaces as the body's datum has it
 
   NormalResponse(double contact_modulus_of_half_space)
       : contact_modulus(contact_modulus_of_half_space) {}
   // The response of a body on a grid, in units of its cells and of reference_modulus().
-  NormalResponse(const Body& pressed, const Grid2D& physical);
+  NormalResponse(const Body& pressed, const Grid2D& physical, bool with_uniform);
 
   // The compliance of the body at a wave number in the units of the solve.
-  double compliance(double q) const { return body->compliance(q / cell).normal * modulus / cell; }
+  double compliance(double q) const {
+    return q > 0 || uniform ? body->compliance(q / cell).normal * modulus / cell : 0;
+  }
   bool operator==(const NormalResponse& other) const;
 };
 

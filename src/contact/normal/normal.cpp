@@ -456,8 +456,7 @@ NormalContactState press(const Surface& surface, const Body& body, const Operati
   // added to the result, so that both data have the same pressures.
   const bool by_indentation = point.control == ControlQuantity::indentation;
   const double uniform = body.compliance(0).normal;
-  const detail::NormalResponse response(
-      by_indentation ? body : body.measured_from(Datum::mean_plane), surface.grid);
+  const detail::NormalResponse response(body, surface.grid, by_indentation);
   check(surface, response.modulus, options);
   NormalContactState state = press_checked(
       surface, Scaled(surface.grid, response.modulus, response), point, options, !(uniform > 0));

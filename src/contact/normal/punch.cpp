@@ -369,7 +369,7 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, con
   if (const auto& half_space = body.half_space_material())
     return normal_stiffness(state, grid, half_space->contact_modulus, options, punch_pressure);
   detail::require_pressable(body, grid, options.boundary);
-  const detail::NormalResponse response(body, grid);
+  const detail::NormalResponse response(body, grid, true);
   const double uniform = body.compliance(0).normal;
   std::optional<double> full;
   if (!(uniform > 0)) full = std::numeric_limits<double>::infinity();
