@@ -25,11 +25,38 @@ namespace {
 // of this tolerance.
 constexpr double stick_tolerance = 1e-3;
 
-}  // namespace
+// What the contacts of a material and of any other body do differently.
+NormalContactState press_on(const Surface& surface, const Material& material,
+                            const OperatingPoint& point, const NormalContactOptions& options) {
+  return press(surface, material.contact_modulus, point, options);
+}
+NormalContactState press_on(const Surface& surface, const Body& body, const OperatingPoint& point,
+                            const NormalContactOptions& options) {
+  return press(surface, body, point, options);
+}
+double stiffness_on(const NormalContactState& state, const Grid2D& grid, const Material& material,
+                    const NormalContactOptions& options, Field* punch_pressure) {
+  return normal_stiffness(state, grid, material.contact_modulus, options, punch_pressure);
+}
+double stiffness_on(const NormalContactState& state, const Grid2D& grid, const Body& body,
+                    const NormalContactOptions& options, Field* punch_pressure) {
+  return normal_stiffness(state, grid, body, options, punch_pressure);
+}
+Field first_tractions(const Material& material, const Field& punch_pressure) {
+  return punch_pressure * material.modulus_ratio();
+}
+Field first_tractions(const Body&, const Field&) { return {}; }
+// K_t/K where it is known without a solve.
+std::optional<double> stiffness_ratio(const Material& material) {
+  if (!std::isfinite(material.tangential_modulus)) return {};
+  return material.modulus_ratio();
+}
+std::optional<double> stiffness_ratio(const Body&) { return {}; }
 
-std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
-                                       const Material& material, const SweepOptions& options,
-                                       const std::vector<double>& directions) {
+template <class Pressed>
+std::vector<ForceSample> samples_of(const NormalContactState& state, const Surface& surface,
+                                    const Pressed& pressed, const SweepOptions& options,
+                                    const std::vector<double>& directions) {
   ForceSample sample;
   sample.indentation = state.indentation;
   if (options.contact.boundary == Boundary::periodic) sample.mean_gap = state.mean_gap;
@@ -42,23 +69,22 @@ std::vector<ForceSample> force_samples(const NormalContactState& state, const Su
   stick.xx = stick.xy = stick.yy = ForceSample::unknown;
   if (options.stiffness && state.converged()) {
     Field punch_pressure;
-    sample.normal_stiffness =
-        normal_stiffness(state, surface.grid, material.contact_modulus, options.contact,
-                         options.stick ? &punch_pressure : nullptr);
+    sample.normal_stiffness = stiffness_on(state, surface.grid, pressed, options.contact,
+                                           options.stick ? &punch_pressure : nullptr);
     sample.converged = !std::isnan(sample.normal_stiffness);
     if (options.stick && std::isfinite(sample.normal_stiffness)) {
       StickOptions solve;
       solve.tolerance = stick_tolerance;
       solve.boundary = options.contact.boundary;
       solve.on_progress = options.contact.on_progress;
-      stick = stick_stiffness(contact_set(state), surface.grid, material, solve,
+      stick = stick_stiffness(contact_set(state), surface.grid, pressed, solve,
                               directions == std::vector<double>{0},
-                              punch_pressure * material.modulus_ratio(), surface.communicator);
+                              first_tractions(pressed, punch_pressure), surface.communicator);
       sample.converged = sample.converged && stick.converged();
-    } else if (std::isfinite(material.tangential_modulus)) {
+    } else if (const auto ratio = stiffness_ratio(pressed)) {
       // K_t = (G*/E*)K is exact for one circular contact and for ν = 0; about 1 % off for rough
       // contacts at ν = 0.3 (docs/theory.md, section 7).
-      sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
+      sample.tangential_stiffness = *ratio * sample.normal_stiffness;
     }
   }
   std::vector<ForceSample> samples(directions.size(), sample);
@@ -69,9 +95,30 @@ std::vector<ForceSample> force_samples(const NormalContactState& state, const Su
   return samples;
 }
 
+}  // namespace
+
+std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
+                                       const Material& material, const SweepOptions& options,
+                                       const std::vector<double>& directions) {
+  return samples_of(state, surface, material, options, directions);
+}
+
+std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
+                                       const Body& body, const SweepOptions& options,
+                                       const std::vector<double>& directions) {
+  if (const auto& material = body.half_space_material())
+    return samples_of(state, surface, *material, options, directions);
+  return samples_of(state, surface, body, options, directions);
+}
+
 ForceSample force_sample(const NormalContactState& state, const Surface& surface,
                          const Material& material, const SweepOptions& options) {
   return force_samples(state, surface, material, options, {options.direction}).front();
+}
+
+ForceSample force_sample(const NormalContactState& state, const Surface& surface, const Body& body,
+                         const SweepOptions& options) {
+  return force_samples(state, surface, body, options, {options.direction}).front();
 }
 
 namespace {
@@ -139,17 +186,10 @@ void gather(const Groups& groups, Samples& samples) {
     }
 }
 
-}  // namespace
-
-ForceCurve sweep_pressures(const Surface& surface, const Material& material,
-                           const std::vector<double>& pressures, const SweepOptions& options) {
-  return sweep_directions(surface, material, pressures, {options.direction}, options).front();
-}
-
-std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material& material,
-                                         const std::vector<double>& pressures,
-                                         const std::vector<double>& directions,
-                                         const SweepOptions& options) {
+template <class Pressed>
+std::vector<ForceCurve> sweep(const Surface& surface, const Pressed& pressed,
+                              const std::vector<double>& pressures,
+                              const std::vector<double>& directions, const SweepOptions& options) {
   const Groups groups = options.groups.value_or(Groups(surface.communicator, 1));
   collectively(groups.all(), [&] { surface.require_complete_rows("a contact calculation"); });
   validate(pressures);
@@ -185,11 +225,10 @@ std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material&
     };
   loop.run(loads, [&](Index turn) {
     const std::size_t k = mine[static_cast<std::size_t>(turn)];
-    const auto state =
-        press(surface, material.contact_modulus, at_pressure(pressures[k]), inner.contact);
+    const NormalContactState state =
+        press_on(surface, pressed, at_pressure(pressures[k]), inner.contact);
     if (state.termination == Termination::interrupted) return loop.stop();
-    const std::vector<ForceSample> found =
-        force_samples(state, surface, material, inner, directions);
+    const std::vector<ForceSample> found = samples_of(state, surface, pressed, inner, directions);
     // A sample whose stiffness solve was interrupted is dropped; it is not a failed load.
     if (!surface.communicator.all_agree(!loop.stopped() || found.front().converged))
       return loop.stop();
@@ -207,6 +246,34 @@ std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material&
     for (std::size_t k = 0; found && k < curves.size(); ++k)
       curves[k].samples.push_back((*found)[k]);
   return curves;
+}
+
+}  // namespace
+
+std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material& material,
+                                         const std::vector<double>& pressures,
+                                         const std::vector<double>& directions,
+                                         const SweepOptions& options) {
+  return sweep(surface, material, pressures, directions, options);
+}
+
+std::vector<ForceCurve> sweep_directions(const Surface& surface, const Body& body,
+                                         const std::vector<double>& pressures,
+                                         const std::vector<double>& directions,
+                                         const SweepOptions& options) {
+  if (const auto& material = body.half_space_material())
+    return sweep(surface, *material, pressures, directions, options);
+  return sweep(surface, body, pressures, directions, options);
+}
+
+ForceCurve sweep_pressures(const Surface& surface, const Material& material,
+                           const std::vector<double>& pressures, const SweepOptions& options) {
+  return sweep_directions(surface, material, pressures, {options.direction}, options).front();
+}
+
+ForceCurve sweep_pressures(const Surface& surface, const Body& body,
+                           const std::vector<double>& pressures, const SweepOptions& options) {
+  return sweep_directions(surface, body, pressures, {options.direction}, options).front();
 }
 
 }  // namespace salebra

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <salebra/base/communicator.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/normal.hpp>
@@ -47,6 +48,14 @@ std::vector<ForceSample> force_samples(const NormalContactState& state, const Su
                                        const Material& material, const SweepOptions& options,
                                        const std::vector<double>& directions);
 
+/// As above for any body. K and K_t are measured from the body's datum. Except for half-spaces, K_t
+/// needs options.stick, since no ratio of moduli gives it, and is NaN otherwise.
+ForceSample force_sample(const NormalContactState& state, const Surface& surface, const Body& body,
+                         const SweepOptions& options);
+std::vector<ForceSample> force_samples(const NormalContactState& state, const Surface& surface,
+                                       const Body& body, const SweepOptions& options,
+                                       const std::vector<double>& directions);
+
 /// Computes the force–gap curve of a surface by boundary elements:
 ///     const ForceCurve curve = sweep_pressures(surface, material, {1e6, 2e6, 5e6, 1e7});
 /// Each pressure is solved independently of the others, in parallel over loads; starting from
@@ -66,6 +75,15 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
 ///         sweep_directions(surface, material, {1e6, 2e6}, {0, std::numbers::pi / 2}, {.stick = true});
 /// Each contact is solved once, with two stick solves.
 std::vector<ForceCurve> sweep_directions(const Surface& surface, const Material& material,
+                                         const std::vector<double>& pressures,
+                                         const std::vector<double>& directions,
+                                         const SweepOptions& options = {});
+
+/// As above for any body, with the samples of force_sample() for that body:
+///     const ForceCurve curve = sweep_pressures(surface, coated, {1e6, 2e6, 5e6}, {.stick = true});
+ForceCurve sweep_pressures(const Surface& surface, const Body& body,
+                           const std::vector<double>& pressures, const SweepOptions& options = {});
+std::vector<ForceCurve> sweep_directions(const Surface& surface, const Body& body,
                                          const std::vector<double>& pressures,
                                          const std::vector<double>& directions,
                                          const SweepOptions& options = {});

@@ -171,13 +171,77 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
 
 namespace detail {
 
-NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
+NormalResponse::NormalResponse(const Body& pressed, const Grid2D& physical, bool with_uniform)
+    : body(pressed),
+      cell(std::sqrt(physical.cell_area())),
+      modulus(reference_modulus(pressed, physical)),
+      uniform(with_uniform) {}
+
+bool NormalResponse::operator==(const NormalResponse& other) const {
+  const bool same_body = body && other.body ? body->same_as(*other.body) : !body && !other.body;
+  return same_body && uniform == other.uniform && contact_modulus == other.contact_modulus &&
+         cell == other.cell && modulus == other.modulus;
+}
+
+void require_pressable(const Body& body, const Grid2D& grid, Boundary boundary) {
+  grid.validate();
+  require(boundary == Boundary::periodic, "boundary", name_of(boundary),
+          "is for half-spaces only; a layered, graded, anisotropic or tabulated body needs a "
+          "periodic surface");
+  body.compliance(2 * pi / std::max(grid.lx, grid.ly));
+  body.compliance(pi * std::hypot(1 / grid.dx(), 1 / grid.dy()));
+}
+
+double reference_modulus(const Body& body, const Grid2D& grid) {
+  const double q = pi / std::sqrt(grid.cell_area());
+  return 2 / (q * body.compliance(q).normal);
+}
+
+namespace {
+
+// A table of a body need not reach beyond the longest wave of the grid.
+double wave_of(const Grid2D& grid, double q) {
+  return std::max(q, 2 * pi / std::max(grid.lx, grid.ly));
+}
+
+}  // namespace
+
+double cell_compliance(const Grid2D& grid, const NormalResponse& response) {
+  if (!response.body) return salebra::cell_compliance(grid, response.contact_modulus);
+  // The mean of the compliance over the wave vectors of the grid, sampled at midpoints.
+  constexpr int samples = 32;
+  double sum = 0;
+  for (int a = 0; a < samples; ++a)
+    for (int b = 0; b < samples; ++b)
+      sum += response.compliance(
+          wave_of(grid, pi / samples * std::hypot((a + 0.5) / grid.dx(), (b + 0.5) / grid.dy())));
+  return sum / (samples * samples);
+}
+
+InverseStencil inverse_stencil(const Grid2D& grid, const NormalResponse& response) {
+  if (!response.body) return InverseStencil(grid);
+  return InverseStencil(grid, [&](double q) { return 1 / response.compliance(wave_of(grid, q)); });
+}
+
+InverseStencil tangential_inverse_stencil(const Grid2D& grid, const Body& body) {
+  return InverseStencil(grid, [&](double q) {
+    const SurfaceCompliance c = body.compliance(wave_of(grid, q));
+    return 2 / (c.in_plane + c.across);
+  });
+}
+
+NormalSymbol normal_symbol(const Grid2D& grid, const NormalResponse& response, Boundary boundary,
                            const RowPartition& rows) {
   grid.validate();
+  const double contact_modulus = response.contact_modulus;
   require_positive(contact_modulus, "contact_modulus");
   const auto shape = shape_of<double>(grid, boundary);
   NormalSymbol symbol{shape.period_x, shape.period_y, {}, {}};
-  if (boundary == Boundary::periodic) {
+  if (response.body) {
+    symbol.value = [=](Index i, Index j) {
+      return response.compliance(WaveVector(grid, i, j).length);
+    };
+  } else if (boundary == Boundary::periodic) {
     const double x = 2 * pi / grid.lx, y = 2 * pi / grid.ly;
     symbol.value = [=](Index i, Index j) {
       const double qx = x * static_cast<double>(i), qy = y * static_cast<double>(j);
@@ -282,6 +346,40 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
   return compliance;
 }
 
+template <class Real>
+Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Body& body,
+                                          const Communicator& communicator) {
+  Convolution2D<Real> compliance(shape_of<Real>(grid, Boundary::periodic), 2,
+                                 RowPartition(communicator, grid.nx));
+  const auto along = [=](double component, double length) {
+    const SurfaceCompliance c = body.compliance(length);
+    return length == 0
+               ? c.in_plane
+               : c.across + (c.in_plane - c.across) * component * component / (length * length);
+  };
+  compliance.set_symbol(0, 0, [=](Index i, Index j) {
+    const WaveVector q(grid, i, j);
+    return along(q.x, q.length);
+  });
+  compliance.set_symbol(1, 1, [=](Index i, Index j) {
+    const WaveVector q(grid, i, j);
+    return along(q.y, q.length);
+  });
+  compliance.set_symbol(
+      0, 1,
+      [=](Index i, Index j) {
+        const WaveVector q(grid, i, j);
+        // As for half-spaces, an odd symbol is 0 at the Nyquist frequencies.
+        if (2 * i == grid.nx || 2 * j == grid.ny || q.length == 0) return 0.0;
+        const SurfaceCompliance c = body.compliance(q.length);
+        return (c.in_plane - c.across) * q.x * q.y / (q.length * q.length);
+      },
+      Parity::odd);
+  return compliance;
+}
+
+template Convolution2D<double> tangential_compliance<double>(const Grid2D&, const Body&,
+                                                             const Communicator&);
 template Convolution2D<float> normal_compliance<float>(const Grid2D&, double, Boundary,
                                                        const Communicator&);
 template Convolution2D<double> normal_compliance<double>(const Grid2D&, double, Boundary,
@@ -299,8 +397,11 @@ double cell_compliance(const Grid2D& grid, double contact_modulus) {
   return 2 / contact_modulus * integral / (4 * qx * qy);
 }
 
-InverseStencil::InverseStencil(const Grid2D& grid) {
-  // The symbol |q|/2 is sampled on a periodic grid of 64 × 64 cells, which is far larger than the
+InverseStencil::InverseStencil(const Grid2D& grid)
+    : InverseStencil(grid, [](double q) { return q / 2; }) {}
+
+InverseStencil::InverseStencil(const Grid2D& grid, const std::function<double(double q)>& inverse) {
+  // The symbol is sampled on a periodic grid of 64 × 64 cells, which is far larger than the
   // stencil and takes negligible time.
   constexpr int torus = 64;
   std::array<double, torus> cosine;
@@ -313,8 +414,10 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   for (int a = 0; a < torus; ++a)
     for (int b = 0; b < torus; ++b)
       symbol[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] =
-          pi / torus *
-          std::hypot(std::min(a, torus - a) / grid.dx(), std::min(b, torus - b) / grid.dy());
+          a == 0 && b == 0 ? 0
+                           : inverse(2 * (pi / torus *
+                                          std::hypot(std::min(a, torus - a) / grid.dx(),
+                                                     std::min(b, torus - b) / grid.dy())));
   weights_.fill(0);
   for (int i = 0; i <= radius; ++i)
     for (int a = 0; a < torus; ++a)

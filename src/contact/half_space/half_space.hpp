@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <salebra/base/grid.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
 #include "base/convolution.hpp"
@@ -53,6 +55,13 @@ template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
                                           Boundary boundary, const Communicator& communicator = {});
 
+/// As above for any body on a periodic surface, with its responses along (C_l) and across (C_a) the
+/// wave vector:
+///     û_x = [C_a + (C_l − C_a) q_x²/q²] τ̂_x + (C_l − C_a) (q_x q_y/q²) τ̂_y,  û(0) = C_l(0) τ̂(0)
+template <class Real>
+Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Body& body,
+                                          const Communicator& communicator = {});
+
 /// Displacement of a cell under a unit pressure on this cell alone, m/Pa. It gives the order of
 /// magnitude of displacements and is not exact for the periodic kernel.
 double cell_compliance(const Grid2D& grid, double contact_modulus);
@@ -66,9 +75,12 @@ class InverseStencil {
   static constexpr int radius = 3;
   static constexpr int width = 2 * radius + 1;
 
-  /// Stencil of a grid; depends only on dx and dy. The weights are symmetric, and their Fourier
+  /// Stencil of the half-space; depends only on dx and dy. The weights are symmetric, and their Fourier
   /// transform is positive.
   explicit InverseStencil(const Grid2D& grid);
+  /// Stencil of another symbol of the inverse, as a function of the wave number q > 0; at q = 0 the
+  /// symbol is 0.
+  InverseStencil(const Grid2D& grid, const std::function<double(double q)>& symbol);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius, 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
   /// Weights of all (i, j), row by row.

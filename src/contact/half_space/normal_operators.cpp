@@ -8,32 +8,34 @@
 
 namespace salebra::detail {
 
-NormalOperators::NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                                 const RowPartition& rows)
+NormalOperators::NormalOperators(const Grid2D& grid, const NormalResponse& response,
+                                 Boundary boundary, const RowPartition& rows)
     : grid_(grid),
-      contact_modulus_(contact_modulus),
+      response_(response),
       boundary_(boundary),
       rows_(rows),
-      symbol_(normal_symbol(grid, contact_modulus, boundary, rows)),
-      inverse_(grid) {}
+      symbol_(normal_symbol(grid, response, boundary, rows)),
+      inverse_(inverse_stencil(grid, response)) {}
 
-bool NormalOperators::serves(const Grid2D& grid, double contact_modulus, Boundary boundary) const {
+bool NormalOperators::serves(const Grid2D& grid, const NormalResponse& response,
+                             Boundary boundary) const {
   return grid.nx == grid_.nx && grid.ny == grid_.ny && grid.lx == grid_.lx && grid.ly == grid_.ly &&
-         contact_modulus == contact_modulus_ && boundary == boundary_;
+         response == response_ && boundary == boundary_;
 }
 
-std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double contact_modulus,
+std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid,
+                                                     const NormalResponse& response,
                                                      Boundary boundary, const RowPartition& rows) {
   constexpr Index max_points = 12'000'000;
   static std::mutex mutex;
   static std::vector<std::shared_ptr<NormalOperators>> last;  // most recently used: last
   const auto make = [&] {
-    return std::make_shared<NormalOperators>(grid, contact_modulus, boundary, rows);
+    return std::make_shared<NormalOperators>(grid, response, boundary, rows);
   };
   if (!rows.communicator().alone() || grid.points() > max_points) return make();
   const std::lock_guard lock(mutex);
   const auto found = std::ranges::find_if(
-      last, [&](const auto& one) { return one->serves(grid, contact_modulus, boundary); });
+      last, [&](const auto& one) { return one->serves(grid, response, boundary); });
   if (found == last.end())
     last.push_back(make());
   else
@@ -59,9 +61,11 @@ Convolution2D<Real> NormalOperators::compliance() {
 }
 
 std::optional<MultilevelKernel> NormalOperators::multilevel() {
+  if (response_.body) return std::nullopt;
   const std::lock_guard lock(mutex_);
   if (!multilevel_)
-    multilevel_ = MultilevelKernel::Plan::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
+    multilevel_ =
+        MultilevelKernel::Plan::make(grid_, rows_, symbol_, response_.contact_modulus, boundary_);
   if (!*multilevel_) return std::nullopt;
   return MultilevelKernel(**multilevel_, rows_);
 }

@@ -18,26 +18,27 @@ namespace salebra::detail {
 // may call the functions.
 class NormalOperators {
  public:
-  NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary,
+  NormalOperators(const Grid2D& grid, const NormalResponse& response, Boundary boundary,
                   const RowPartition& rows);
   // Returns the same object for equal grids while it is among the most recently used objects, whose
   // grids have 12 million points in all (36 MB, or 90 MB for free contacts). The contacts of a
   // sweep share it, and so do a contact and the computation of its stiffness. A grid whose rows are
   // distributed over processes always gets a new object.
-  static std::shared_ptr<NormalOperators> of(const Grid2D& grid, double contact_modulus,
+  static std::shared_ptr<NormalOperators> of(const Grid2D& grid, const NormalResponse& response,
                                              Boundary boundary, const RowPartition& rows);
 
   const NormalSymbol& symbol() const { return symbol_; }
   const InverseStencil& inverse() const { return inverse_; }
   template <class Real>
   Convolution2D<Real> compliance();
+  // None also for any body but a half-space, for whose kernel the stencils are designed.
   std::optional<MultilevelKernel> multilevel();
 
  private:
-  bool serves(const Grid2D& grid, double contact_modulus, Boundary boundary) const;
+  bool serves(const Grid2D& grid, const NormalResponse& response, Boundary boundary) const;
 
   Grid2D grid_;
-  double contact_modulus_;
+  NormalResponse response_;
   Boundary boundary_;
   RowPartition rows_;
   NormalSymbol symbol_;

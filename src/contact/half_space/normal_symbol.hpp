@@ -2,11 +2,50 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <salebra/base/row_partition.hpp>
+#include <salebra/contact/half_space/body.hpp>
 
 #include "half_space.hpp"
 
 namespace salebra::detail {
+
+// What a solve presses, in the units of the solve: a half-space with a contact modulus, or any body.
+// In a solve, lengths along the surface are in units of `cell` and pressures in units of
+// modulus/cell; displacements keep their unit.
+struct NormalResponse {
+  double contact_modulus = 1;     // of a half-space
+  std::optional<Body> body = {};  // none: the half-space
+  double cell = 1, modulus = 1;   // m and Pa
+  bool uniform = false;           // whether a uniform load displaces as the body's datum has it
+
+  NormalResponse(double contact_modulus_of_half_space)
+      : contact_modulus(contact_modulus_of_half_space) {}
+  // The response of a body on a grid, in units of its cells and of reference_modulus().
+  NormalResponse(const Body& pressed, const Grid2D& physical, bool with_uniform);
+
+  // The compliance of the body at a wave number in the units of the solve.
+  double compliance(double q) const {
+    return q > 0 || uniform ? body->compliance(q / cell).normal * modulus / cell : 0;
+  }
+  bool operator==(const NormalResponse& other) const;
+};
+
+// Throws InvalidInput unless the body can be pressed on the grid: periodic, and known at all wave
+// numbers of the grid.
+void require_pressable(const Body& body, const Grid2D& grid, Boundary boundary);
+
+// Contact modulus E* = 2/(qC) of the half-space that responds as the body does to the waves of two
+// cells: a scale, which makes numbers of a solve of the order of 1.
+double reference_modulus(const Body& body, const Grid2D& grid);
+
+// As salebra::cell_compliance(), for any response.
+double cell_compliance(const Grid2D& grid, const NormalResponse& response);
+
+// Stencils of the inverse responses of a body: normal, for contact_modulus = 1, and tangential,
+// Pa/m, where one scalar stands for the responses along and across the wave.
+InverseStencil inverse_stencil(const Grid2D& grid, const NormalResponse& response);
+InverseStencil tangential_inverse_stencil(const Grid2D& grid, const Body& body);
 
 // The Fourier transform of the kernel of normal_compliance() and its period, which is the grid or,
 // for a free contact, the grid padded with empty cells. For a free contact the symbol takes longer
@@ -23,7 +62,7 @@ struct NormalSymbol {
                       const std::function<Index(Index index)>& column_at)>
       columns;
 };
-NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
+NormalSymbol normal_symbol(const Grid2D& grid, const NormalResponse& response, Boundary boundary,
                            const RowPartition& rows);
 
 template <class Real>

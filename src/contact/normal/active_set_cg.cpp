@@ -42,23 +42,24 @@ constexpr int max_inexact_refreshes = 3;
 }  // namespace
 
 template <class Real>
-ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus,
-                               Boundary boundary, const Heights& heights, double rms_height)
+ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const RowPartition& rows,
+                               const NormalResponse& response, Boundary boundary,
+                               const Heights& heights, double rms_height)
     : grid_(grid),
       rows_(rows),
       boundary_(boundary),
       halo_rows_(halo_rows(rows, boundary)),
       heights_(heights),
       rms_height_(rms_height),
-      cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
-      operators_(NormalOperators::of(grid, contact_modulus, boundary, rows)),
+      cell_compliance_(detail::cell_compliance(grid, response)),
+      operators_(NormalOperators::of(grid, response, boundary, rows)),
       compliance_(operators_->compliance<Real>()),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_(tiles_across(grid.ny)) {
   for (int i = -halo; i <= halo; ++i)
     for (int j = -halo; j <= halo; ++j)
       stencil_[static_cast<std::size_t>((i + halo) * (2 * halo + 1) + j + halo)] =
-          static_cast<Real>(contact_modulus * operators_->inverse().weight(i, j));
+          static_cast<Real>(response.contact_modulus * operators_->inverse().weight(i, j));
   static_assert(halo == InverseStencil::radius);
 }
 

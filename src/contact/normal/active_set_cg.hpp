@@ -48,13 +48,13 @@ class Stopwatch {
 template <class Real>
 class ActiveSetCg {
  public:
-  ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
-              double rms_height)
-      : ActiveSetCg(grid, RowPartition(grid.nx), contact_modulus, boundary, heights, rms_height) {}
+  ActiveSetCg(const Grid2D& grid, const NormalResponse& response, Boundary boundary,
+              const Heights& heights, double rms_height)
+      : ActiveSetCg(grid, RowPartition(grid.nx), response, boundary, heights, rms_height) {}
   // If several processes share the rows of the grid, fields and tiles are those of this process's
   // rows, and each call is collective. All decisions follow from sums that have the same bits in
   // every process, so no process waits for another in vain.
-  ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus,
+  ActiveSetCg(const Grid2D& grid, const RowPartition& rows, const NormalResponse& response,
               Boundary boundary, const Heights& heights, double rms_height);
 
   // p: the pressures to start from on entry, the solution on return. g: on return Gp − h, the

@@ -134,9 +134,12 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
 // The problem in scaled units. Heights stay in metres; the unit of pressure is E*/(cell size),
 // which makes the displacement Gp by a pressure p of the order of p in any system of units.
 struct Scaled {
-  Grid2D grid;           // in cell sizes
-  double pressure_unit;  // Pa
-  explicit Scaled(const Grid2D& physical, double contact_modulus) {
+  Grid2D grid;                      // in cell sizes
+  double contact_modulus;           // Pa; of a body: detail::reference_modulus()
+  double pressure_unit;             // Pa
+  detail::NormalResponse response;  // in scaled units
+  explicit Scaled(const Grid2D& physical, double modulus, const detail::NormalResponse& body = 1)
+      : contact_modulus(modulus), response(body) {
     const double cell = std::sqrt(physical.cell_area());
     grid = {physical.nx, physical.ny, physical.lx / cell, physical.ly / cell};
     pressure_unit = contact_modulus / cell;
@@ -191,8 +194,8 @@ class NestedSolve {
       const ActiveSetLimits limits = limits_of(k);
       // The coarser grids are no longer needed; they take 2.7 bytes per cell of the finest grid.
       levels_.erase(levels_.begin() + static_cast<std::ptrdiff_t>(k) + 1, levels_.end());
-      ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
-                               rms_height);
+      ActiveSetCg<Real> solver(level.grid, level.rows, scaled.response, options.boundary,
+                               level.heights, rms_height);
       ScaledOperatingPoint target_here = target;
       // A coarse grid has another mean height than the finest one. With the same plane height its
       // contact may be beyond full contact, where no pressure is a solution and CG diverges; a
@@ -226,7 +229,7 @@ class NestedSolve {
       return Field::Constant(level.rows.count(), level.grid.ny,
                              target.load_given() ? target.value : 0.0);
     Field pressure = uninitialised_field(level.rows.count(), level.grid.ny);
-    const double step = prediction / cell_compliance(level.grid, 1);
+    const double step = prediction / detail::cell_compliance(level.grid, problem_.scaled.response);
     detail::prolong(
         {levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.plane_height}, level,
         options.boundary, step, pressure.data());
@@ -349,18 +352,17 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
 
 // Solves a contact. Heights count from the highest point, so the height of the plane is the
 // indentation.
-NormalContactState contact_of(const Surface& surface, double contact_modulus, const Depths& depths,
+NormalContactState contact_of(const Surface& surface, const Scaled& scaled, const Depths& depths,
                               const OperatingPoint& point, const NormalContactOptions& options) {
-  const Scaled scaled(surface.grid, contact_modulus);
   const ScaledOperatingPoint scaled_point{
       point.control, point.load_given() ? point.value / scaled.pressure_unit : point.value,
       options.hardness / scaled.pressure_unit};
   const Heights heights{surface.heights.data(), depths.highest};
   // A flat punch has no rms height as a length to compare gaps with; its problem is linear, and the
   // displacement serves as this length.
-  const double displacement = point.load_given()
-                                  ? point.value / contact_modulus * std::sqrt(surface.grid.area())
-                                  : point.value;
+  const double displacement =
+      point.load_given() ? point.value / scaled.contact_modulus * std::sqrt(surface.grid.area())
+                         : point.value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
   const RowPartition rows = surface.partition();
   const auto solve = [&]<class Real>(Real) {  // levels are freed at return
@@ -389,8 +391,9 @@ double checked_pressure(const OperatingPoint& point, double area, double contact
   return pressure;
 }
 
-/// Checks a prescribed mean gap or indentation and returns the indentation.
-double checked_indentation(const OperatingPoint& point, double highest, Boundary boundary) {
+/// Checks a prescribed mean gap or indentation and returns the indentation from the mean plane.
+/// limited: whether a periodic surface is in full contact at an indentation of `highest`.
+double checked_indentation(const OperatingPoint& point, double highest, bool limited) {
   if (point.control == ControlQuantity::mean_gap) {
     require(point.value < highest, "mean_gap", point.value,
             fmt::format("must be below {} m, where the highest point first touches", highest));
@@ -399,7 +402,7 @@ double checked_indentation(const OperatingPoint& point, double highest, Boundary
     return highest - point.value;
   }
   require(
-      boundary == Boundary::free || point.value < highest, "indentation", point.value,
+      !limited || point.value < highest, "indentation", point.value,
       fmt::format("must be below {} m, at which a periodic surface is in full contact", highest));
   return point.value;
 }
@@ -408,16 +411,19 @@ double checked_indentation(const OperatingPoint& point, double highest, Boundary
 
 ContactSet contact_set(const NormalContactState& state) { return state.contact_pressure > 0; }
 
-NormalContactState press(const Surface& surface, double contact_modulus,
-                         const OperatingPoint& point, const NormalContactOptions& options) {
-  check(surface, contact_modulus, options);
+namespace {
+
+// Presses after all checks but those of the operating point. limited: as for checked_indentation().
+NormalContactState press_checked(const Surface& surface, const Scaled& scaled,
+                                 const OperatingPoint& point, const NormalContactOptions& options,
+                                 bool limited) {
   if (point.load_given()) {
     const double nominal =
-        checked_pressure(point, surface.grid.area(), contact_modulus, options.hardness);
+        checked_pressure(point, surface.grid.area(), scaled.contact_modulus, options.hardness);
     const Depths depths(surface);
     if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
       return full_contact_of_plane(surface, nominal);
-    return contact_of(surface, contact_modulus, depths, at_pressure(nominal), options);
+    return contact_of(surface, scaled, depths, at_pressure(nominal), options);
   }
   if (point.control == ControlQuantity::mean_gap) {
     require(options.boundary == Boundary::periodic, "boundary", "free",
@@ -428,9 +434,38 @@ NormalContactState press(const Surface& surface, double contact_modulus,
   }
   require_positive(point.value, name_of(point.control));
   const Depths depths(surface);
-  return contact_of(surface, contact_modulus, depths,
-                    at_indentation(checked_indentation(point, depths.mean, options.boundary)),
-                    options);
+  return contact_of(surface, scaled, depths,
+                    at_indentation(checked_indentation(point, depths.mean, limited)), options);
+}
+
+}  // namespace
+
+NormalContactState press(const Surface& surface, double contact_modulus,
+                         const OperatingPoint& point, const NormalContactOptions& options) {
+  check(surface, contact_modulus, options);
+  return press_checked(surface, Scaled(surface.grid, contact_modulus), point, options,
+                       options.boundary == Boundary::periodic);
+}
+
+NormalContactState press(const Surface& surface, const Body& body, const OperatingPoint& point,
+                         const NormalContactOptions& options) {
+  if (const auto& half_space = body.half_space_material())
+    return press(surface, half_space->contact_modulus, point, options);
+  detail::require_pressable(body, surface.grid, options.boundary);
+  // Only a prescribed indentation needs the uniform displacement during the solve. Otherwise it is
+  // added to the result, so that both data have the same pressures.
+  const bool by_indentation = point.control == ControlQuantity::indentation;
+  const double uniform = body.compliance(0).normal;
+  const detail::NormalResponse response(body, surface.grid, by_indentation);
+  check(surface, response.modulus, options);
+  NormalContactState state = press_checked(
+      surface, Scaled(surface.grid, response.modulus, response), point, options, !(uniform > 0));
+  state.datum = body.datum();
+  if (!by_indentation) {
+    state.indentation += uniform * state.mean_pressure;
+    state.elastic_energy += uniform / 2 * state.mean_pressure * state.force;
+  }
+  return state;
 }
 
 }  // namespace salebra

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Normal stiffness of a contact set: the load under a unit rigid displacement of its cells.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
@@ -277,7 +280,8 @@ struct PunchProblem {
   double bound;
   const Grid2D& grid;
   const Communicator& communicator;
-  double contact_modulus;
+  double contact_modulus;           // of a body: detail::reference_modulus()
+  detail::NormalResponse response;  // with lengths in cell sizes and contact_modulus = 1
   Boundary boundary;
   Precision precision;
 };
@@ -299,8 +303,8 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
                       static_cast<double>(window.ny) * grid.dy() / cell};
   Field q;
   const auto press = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, RowPartition(communicator, window.nx), 1, boundary, {},
-                                     0)
+    return detail::ActiveSetCg<Real>(scaled, RowPartition(communicator, window.nx),
+                                     problem.response, boundary, {}, 0)
         .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
   };
   const detail::PunchOutcome outcome =
@@ -324,10 +328,10 @@ std::function<bool(int)> keep_going(const Progress& progress) {
   return [&progress](int iteration) { return progress({"stiffness", 0, iteration, 0}); };
 }
 
-}  // namespace
-
-double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
-                        const NormalContactOptions& options, Field* punch_pressure) {
+// full: the stiffness in full contact, N/m, if no solve is needed for it.
+double stiffness_of(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                    const detail::NormalResponse& response, std::optional<double> full,
+                    const NormalContactOptions& options, Field* punch_pressure) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
   const RowPartition rows(state.communicator, grid.nx);
@@ -336,18 +340,40 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
         state.contact_pressure.rows() == rows.count() && state.contact_pressure.cols() == grid.ny,
         "pressure", state.contact_pressure.size(), "points do not fill the grid");
   });
-  // A periodic surface in full contact cannot approach further, because the mean displacement by
-  // pressures is zero.
   const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
-  if (options.boundary == Boundary::periodic && state.communicator.all_agree(elastic.all()))
-    return std::numeric_limits<double>::infinity();
+  if (full && state.communicator.all_agree(elastic.all())) return *full;
   if (state.communicator.all_agree(!elastic.any())) return 0;
   const PunchStiffness punch = press_punch(
       {state.contact_pressure, options.hardness, grid, state.communicator, contact_modulus,
-       options.boundary, options.precision},
+       response, options.boundary, options.precision},
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);
   return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                        const NormalContactOptions& options, Field* punch_pressure) {
+  // A periodic surface in full contact cannot approach further, because the mean displacement by
+  // pressures is zero.
+  std::optional<double> full;
+  if (options.boundary == Boundary::periodic) full = std::numeric_limits<double>::infinity();
+  return stiffness_of(state, grid, contact_modulus, 1, full, options, punch_pressure);
+}
+
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, const Body& body,
+                        const NormalContactOptions& options, Field* punch_pressure) {
+  require(state.datum == body.datum(), "datum", name_of(body.datum()),
+          fmt::format("differs from that of the contact, {}", name_of(state.datum)));
+  if (const auto& half_space = body.half_space_material())
+    return normal_stiffness(state, grid, half_space->contact_modulus, options, punch_pressure);
+  detail::require_pressable(body, grid, options.boundary);
+  const detail::NormalResponse response(body, grid, true);
+  const double uniform = body.compliance(0).normal;
+  std::optional<double> full;
+  if (!(uniform > 0)) full = std::numeric_limits<double>::infinity();
+  return stiffness_of(state, grid, response.modulus, response, full, options, punch_pressure);
 }
 
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
@@ -370,6 +396,7 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                       grid,
                       {},
                       contact_modulus,
+                      1,
                       options.boundary,
                       Precision::mixed},
                      {.relative_gain = gain,

@@ -6,6 +6,7 @@
 #include <salebra/contact/tangential/stick.hpp>
 
 #include "base/special_values.hpp"
+#include "contact/half_space/normal_symbol.hpp"
 #include "surface_response.hpp"
 #include "tangential_workspace.hpp"
 
@@ -103,26 +104,22 @@ double StickStiffness::along(double angle) const {
   return c * c * xx + 2 * c * s * xy + s * s * yy;
 }
 
-StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
-                               const Material& material, const StickOptions& options,
-                               bool along_x_only, const Field& guess,
-                               const Communicator& communicator) {
-  grid.validate();
+namespace {
+
+void check(const Grid2D& grid, const StickOptions& options, const Field& guess,
+           const RowPartition& rows) {
   detail::require_limits(options.tolerance, options.max_iterations);
-  detail::require_tangential(material);
-  const RowPartition rows(communicator, grid.nx);
-  collectively(communicator, [&] {
+  collectively(rows.communicator(), [&] {
     require(guess.size() == 0 || (guess.rows() == rows.count() && guess.cols() == grid.ny), "guess",
             guess.size(), "values do not match the grid; give one value for each cell");
   });
-  detail::require_spread_contact(contact, grid, rows, options.boundary);
-  const detail::CellWindow window = communicator.alone()
-                                        ? detail::loading_window(contact, grid, options.boundary)
-                                        : detail::CellWindow{0, 0, grid.nx, grid.ny};
-  const auto system_of = [&](detail::Traction traction) {
-    return detail::ContactSystem(grid, material, options.boundary, traction, window,
-                                 communicator.alone() ? RowPartition(window.nx) : rows);
-  };
+}
+
+// system_of(traction) makes the system of the contact's cells for tractions along one or both axes.
+template <class SystemOf>
+StickStiffness stiffness_of(const ContactSet& contact, const Grid2D& grid,
+                            const SystemOf& system_of, const StickOptions& options,
+                            bool along_x_only, const Field& guess) {
   detail::ContactSystem system =
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
@@ -154,6 +151,48 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   stiffness.yy = stiffness_of(system, points, 1, along_y, along_y) * grid.cell_area();
   stiffness.xy = stiffness_of(system, points, 1, along_y, along_x) * grid.cell_area();
   return stiffness;
+}
+
+}  // namespace
+
+StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
+                               const Material& material, const StickOptions& options,
+                               bool along_x_only, const Field& guess,
+                               const Communicator& communicator) {
+  grid.validate();
+  const RowPartition rows(communicator, grid.nx);
+  check(grid, options, guess, rows);
+  detail::require_tangential(material);
+  detail::require_spread_contact(contact, grid, rows, options.boundary);
+  const detail::CellWindow window = communicator.alone()
+                                        ? detail::loading_window(contact, grid, options.boundary)
+                                        : detail::CellWindow{0, 0, grid.nx, grid.ny};
+  return stiffness_of(
+      contact, grid,
+      [&](detail::Traction traction) {
+        return detail::ContactSystem(grid, material, options.boundary, traction, window,
+                                     communicator.alone() ? RowPartition(window.nx) : rows);
+      },
+      options, along_x_only, guess);
+}
+
+StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid, const Body& body,
+                               const StickOptions& options, bool along_x_only, const Field& guess,
+                               const Communicator& communicator) {
+  if (const auto& material = body.half_space_material())
+    return stick_stiffness(contact, grid, *material, options, along_x_only, guess, communicator);
+  detail::require_pressable(body, grid, options.boundary);
+  require_that(body.has_tangential_response(), "body",
+               "has no tangential response; give in_plane and across in its table");
+  const RowPartition rows(communicator, grid.nx);
+  check(grid, options, guess, rows);
+  // From a base, the stiffness is finite even if every cell is in contact.
+  detail::require_spread_contact(
+      contact, grid, rows, body.compliance(0).in_plane > 0 ? Boundary::free : Boundary::periodic);
+  return stiffness_of(
+      contact, grid,
+      [&](detail::Traction traction) { return detail::ContactSystem(grid, body, traction, rows); },
+      options, along_x_only, guess);
 }
 
 }  // namespace salebra

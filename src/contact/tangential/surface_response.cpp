@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "conjugate_gradients.hpp"
 #include "contact/half_space/multilevel_passes.hpp"
+#include "contact/half_space/normal_symbol.hpp"
 #include "contact/normal/contact_memory.hpp"
 
 namespace salebra::detail {
@@ -75,6 +76,12 @@ SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, B
   };
 }
 
+SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Body& body, Traction traction,
+                                 const RowPartition& rows)
+    : window_(affordable({0, 0, grid.nx, grid.ny}, grid, rows)),
+      traction_(traction),
+      compliance_(tangential_compliance<double>(grid, body, rows.communicator())) {}
+
 void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
                             double* displacements) {
   through(compliance_, {}, loaded, tractions, read, displacements);
@@ -125,11 +132,11 @@ void SurfaceResponse::through(Convolution2D<Real>& compliance, const Units& unit
   fft_count_ += 2;
 }
 
-StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,
+StencilPreconditioner::StencilPreconditioner(const InverseStencil& stencil, Boundary boundary,
                                              const CellWindow& window, const RowPartition& rows)
     : window_(window),
       boundary_(boundary),
-      stencil_(grid),
+      stencil_(stencil),
       field_(rows.count(), window.ny),
       halo_rows_(halo_rows(rows, boundary)) {
   static_assert(halo == InverseStencil::radius);
@@ -161,7 +168,17 @@ ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Bound
       window_grid_(grid_of(window, grid)),
       boundary_(boundary),
       response_(grid, material, boundary, traction, window, rows),
-      preconditioner_(grid, boundary, window, rows) {}
+      preconditioner_(InverseStencil(grid), boundary, window, rows) {}
+
+ContactSystem::ContactSystem(const Grid2D& grid, const Body& body, Traction traction,
+                             const RowPartition& rows)
+    : window_{0, 0, grid.nx, grid.ny},
+      rows_(rows),
+      window_grid_(grid),
+      boundary_(Boundary::periodic),
+      multilevel_(false),
+      response_(grid, body, traction, rows),
+      preconditioner_(tangential_inverse_stencil(grid, body), boundary_, window_, rows) {}
 
 PointList ContactSystem::points(const ContactSet& cells) const {
   PointList list;
@@ -235,10 +252,10 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
       report.termination = Termination::interrupted;
     return report.termination == Termination::interrupted;
   };
-  if (!inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
-  const bool on_multilevel = inverse_->hold(points.windowed);
+  if (multilevel_ && !inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
+  const bool on_multilevel = inverse_ && inverse_->hold(points.windowed);
   if (!on_multilevel) preconditioner_.hold(points);
-  const int first_multilevel = inverse_->multilevel_count();
+  const int first_multilevel = inverse_ ? inverse_->multilevel_count() : 0;
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
         response_.apply(points, in.data(), points, out.data());
@@ -259,7 +276,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
       tractions, misfit);
   report.iterations = outcome.iterations;
   report.fft_count = response_.fft_count() - first_fft;
-  report.multilevel_count = inverse_->multilevel_count() - first_multilevel;
+  report.multilevel_count = inverse_ ? inverse_->multilevel_count() - first_multilevel : 0;
   return report;
 }
 

@@ -57,6 +57,10 @@ class SurfaceResponse {
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
                   Traction traction, const CellWindow& window, const RowPartition& rows);
 
+  /// Any body under a periodic surface; it has no apply_loosely().
+  SurfaceResponse(const Grid2D& grid, const Body& body, Traction traction,
+                  const RowPartition& rows);
+
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
   /// Computes the displacements (components × read.size()) under the tractions (components ×
   /// loaded.size()).
@@ -82,7 +86,7 @@ class SurfaceResponse {
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
-  double single_unit_;  // m/Pa
+  double single_unit_ = 1;  // m/Pa
   std::function<Convolution2D<float>()> make_single_;
   std::optional<Convolution2D<float>> single_;
   int fft_count_ = 0;
@@ -92,7 +96,7 @@ class SurfaceResponse {
 /// of a contact set, so that cells out of contact cost nothing.
 class StencilPreconditioner {
  public:
-  StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window,
+  StencilPreconditioner(const InverseStencil& stencil, Boundary boundary, const CellWindow& window,
                         const RowPartition& rows);
 
   Index framed_index(Index ix, Index iy) const {
@@ -122,6 +126,9 @@ class ContactSystem {
       : ContactSystem(grid, material, boundary, traction, window, RowPartition(window.nx)) {}
   ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
                 const CellWindow& window, const RowPartition& rows);
+
+  /// Any body under a periodic surface, preconditioned by the stencil of its tangential response.
+  ContactSystem(const Grid2D& grid, const Body& body, Traction traction, const RowPartition& rows);
 
   const CellWindow& window() const { return window_; }
   const RowPartition& rows() const { return rows_; }
@@ -157,6 +164,7 @@ class ContactSystem {
   RowPartition rows_;
   Grid2D window_grid_;
   Boundary boundary_;
+  bool multilevel_ = true;  // whether the multilevel kernel may precondition
   SurfaceResponse response_;
   StencilPreconditioner preconditioner_;
   std::optional<SetInverse> inverse_;  // made by solve(); contacts with slip do not use it

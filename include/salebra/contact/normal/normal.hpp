@@ -8,6 +8,7 @@
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/operating_point.hpp>
@@ -57,10 +58,11 @@ struct NormalContactState {
   double force = 0;          ///< N
   double mean_gap = 0;       ///< ū: mean of gap over all cells, m
   /// Rigid approach from first touch, m; for a periodic, elastic contact it equals max h − mean h −
-  /// ū with the heights h.
+  /// ū with the heights h, plus the displacement C(0)·pressure of a body measured from its base.
   double indentation = 0;
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
-  double elastic_energy = 0;         ///< ½∫p u dA, J; periodic: with u of zero mean
+  double elastic_energy = 0;         ///< ½∫p u dA, J; periodic: with u measured from the datum
+  Datum datum = Datum::mean_plane;   ///< of the displacements: of the body that was pressed
   double residual = 0;               ///< e_c reached (NormalContactOptions::tolerance)
   int iterations = 0;                ///< on the finest grid
   /// Forward-and-backward transform pairs on the finest grid, in float and double together.
@@ -86,6 +88,7 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
   visit(&S::contact_area_fraction,
         Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"});
   visit(&S::elastic_energy, Quantity{"elastic_energy", energy, "elastic energy"});
+  visit(&S::datum, Kept{"datum", "what displacements are measured from"});
   visit(&S::residual, Quantity{"residual", dimensionless, "residual of the contact"});
   visit(&S::iterations, Quantity{"iterations", dimensionless, "iterations of the solver"});
   visit(&S::fft_count,
@@ -126,6 +129,20 @@ ContactSet contact_set(const NormalContactState& state);
 NormalContactState press(const Surface& surface, double contact_modulus,
                          const OperatingPoint& point, const NormalContactOptions& options = {});
 
+/// Solves the frictionless contact of a rigid rough surface with any linear body:
+///     const Body coated = Body::layered({{5e-6, 3e9, 0.49}}, {.young = 210e9, .poisson = 0.3});
+///     const NormalContactState state = press(surface, coated, at_pressure(2e8));
+/// Like the above, with û(q) = C_n(|q|) p̂(q) and û(0) = C_n(0) p̂(0), which is 0 for a body that is
+/// measured from its mean plane and uniform compression for one that is measured from its base
+/// (Body::measured_from). Homogeneous half-spaces have the same bits as with their contact modulus.
+/// Other bodies are periodic only, and all their iterations use transforms. An indentation from the
+/// base has no upper limit if C_n(0) > 0. Throws InvalidInput also for Boundary::free, and if the
+/// wave numbers of the grid exceed a table.
+/// cost              as above, without the multilevel kernel; a thin and nearly incompressible
+///                   layer on a rigid base takes more iterations
+NormalContactState press(const Surface& surface, const Body& body, const OperatingPoint& point,
+                         const NormalContactOptions& options = {});
+
 /// Computes the normal stiffness K = dF/dδ, N/m, of the contact set {0 < p < hardness} of a state:
 ///     const double stiffness = normal_stiffness(state, surface.grid, 1.1e11);
 /// It needs one linear solve with a fixed contact set. punch_pressure, if given, receives dp/dδ of
@@ -134,6 +151,12 @@ NormalContactState press(const Surface& surface, double contact_modulus,
 /// interrupted. Cost: as many iterations as the contact took, with one transform pair each, or,
 /// with the multilevel kernel, three transform pairs in total.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                        const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
+
+/// Normal stiffness of a contact with the body that was pressed, δ measured from the body's datum.
+/// From a base, K is finite in full contact if C_n(0) > 0. Throws InvalidInput if the datum of the
+/// state is another one.
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, const Body& body,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 
 }  // namespace salebra

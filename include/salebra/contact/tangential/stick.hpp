@@ -5,6 +5,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
@@ -123,5 +124,18 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
                                bool along_x_only = false, const Field& guess = {},
                                const Communicator& communicator = {});
+
+/// K_t of a contact set under any body, with displacements measured from the body's datum:
+///     const double K_t = stick_stiffness(contact_set(state), surface.grid, coated).xx;
+/// û = C_a τ̂ + (C_l − C_a)(q·τ̂) q/q² with the responses of SurfaceCompliance, without the coupling
+/// to the normal direction. K_t/K depends on the load, since K_t is never taken from a ratio of
+/// moduli. Homogeneous half-spaces have the same bits as with their material. The preconditioner is
+/// the stencil of 2/(C_l + C_a), so that the number of iterations grows slowly with the grid. From a
+/// base, a periodic surface in full contact is allowed. Throws InvalidInput also for Boundary::free,
+/// for a body whose tangential response is not known, and for a table that does not cover the wave
+/// numbers of the grid.
+StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid, const Body& body,
+                               const StickOptions& options = {}, bool along_x_only = false,
+                               const Field& guess = {}, const Communicator& communicator = {});
 
 }  // namespace salebra
