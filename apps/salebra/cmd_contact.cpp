@@ -202,11 +202,13 @@ FileTable table_of_files(const ContactArguments& arguments, std::size_t loads) {
                                       {"indentation", "indentation"},
                                       {"K/A0", "normal_stiffness_per_area"},
                                       {"K_t/A0", "tangential_stiffness_per_area"},
+                                      {"direction", "direction"},
                                       {"h", "thermal_conductance"},
                                       {"C", "electrical_conductance"},
                                       {"flow x", "pressure_flow_factor_x"},
                                       {"flow y", "pressure_flow_factor_y"}})
-    table.columns.push_back(column(heading, std::string("curve.") + name, name));
+    table.columns.push_back(
+        column(heading, std::string("curve.") + name, name, std::string_view(name) != "direction"));
   return table;
 }
 
@@ -224,6 +226,7 @@ void press_files(ContactArguments arguments, const std::vector<std::string>& fil
   require_that(!pressures.empty(), "--pressure",
                "not given; several surfaces are compared at the same nominal pressures");
   arguments.surface.file = files.front();
+  if (arguments.stick) arguments.direction = one_direction(arguments.direction);
   check(arguments, arguments.count(), session);
   answer_files(files, table_of_files(arguments, pressures.size()), session,
                [&](const std::string& file) {

@@ -415,6 +415,7 @@ void lose_of_files(DampingArguments arguments, const std::vector<std::string>& f
   require_that(!pressures.empty(), "--pressure",
                "not given; several surfaces are compared at the same nominal pressures");
   if (arguments.of_damper()) require_options({"--drag-velocity"}, "a table of several surfaces");
+  arguments.direction = one_direction(arguments.direction);
   FileTable table{
       .columns = {{.heading = "pressure",
                    .name = "pressure",

@@ -384,6 +384,9 @@ void run_files(StudyArguments arguments, const std::vector<std::string>& files, 
                                    {arguments.dry_run.dry_run, "--dry-run"}});
   arguments.surface.file = files.front();
   const StudyConfiguration configuration = arguments.study();
+  if (const auto* named = std::get_if<LayDirection>(&configuration.direction);
+      named && stick_solves(configuration) && !configuration.adhesion)
+    arguments.direction = one_direction(std::string(name_of(*named)));
   require_that(!configuration.relative_pressures, "--pressures",
                "not given in Pa; several surfaces are compared at the same nominal pressures");
   FileTable table{.columns = {column("pressure", "damping.pressure", "pressure", false)},

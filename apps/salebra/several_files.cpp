@@ -132,6 +132,12 @@ FileColumn column(const std::string& heading, const std::string& path, const std
       .averaged = averaged};
 }
 
+std::string one_direction(const std::string& direction) {
+  require(direction != "both", "--direction", direction,
+          "gives two directions; a table of several surfaces takes one");
+  return direction.empty() || direction == "auto" ? "0deg" : direction;
+}
+
 void add_damping_columns(FileTable& table, const std::string& path,
                          const std::function<double(const Json& answer, std::size_t load)>& area) {
   // A study has an object with mean and error, a single loss has numbers.
@@ -169,6 +175,7 @@ void add_damping_columns(FileTable& table, const std::string& path,
       [](const Json&, std::size_t, double share) { return share; });
   add("no slip", "damping_constant_without_slip_per_area", "damping_constant_without_slip", si,
       1e-6, per_area);
+  table.columns.push_back(column("direction", path + "direction", "direction", false));
 }
 
 namespace {

@@ -48,6 +48,10 @@ FileColumn column(const std::string& heading, const std::string& path, const std
 /// The member of an answer, or for a list its element; null if there is none.
 Json member(const Json& answer, const std::string& path, std::size_t load);
 
+/// A table of several surfaces has one direction of the tangential motion, so that its rows can be
+/// compared: the value of --direction or, by default, along x. Throws InvalidInput for both.
+std::string one_direction(const std::string& direction);
+
 struct FileTable {
   std::vector<FileColumn> columns;
   std::size_t loads = 1;  ///< rows of each file; a first column "pressure" then tells them apart
