@@ -226,7 +226,7 @@ void press_files(ContactArguments arguments, const std::vector<std::string>& fil
   require_that(!pressures.empty(), "--pressure",
                "not given; several surfaces are compared at the same nominal pressures");
   arguments.surface.file = files.front();
-  if (arguments.stick) arguments.direction = one_direction(arguments.direction);
+  if (arguments.sticks()) arguments.direction = one_direction(arguments.direction);
   check(arguments, arguments.count(), session);
   answer_files(files, table_of_files(arguments, pressures.size()), session,
                [&](const std::string& file) {
