@@ -9,6 +9,7 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/study/body_file.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/lay.hpp>
 
@@ -58,6 +59,10 @@ Conductances ContactArguments::conductances_of(const ForceSample& sample,
                       conduction);
 }
 
+std::optional<Body> ContactArguments::body() const {
+  return body_file.empty() ? std::optional<Body>() : read_body(body_file);
+}
+
 NormalContactOptions ContactArguments::contact_options(Session& session) const {
   NormalContactOptions options;
   options.boundary = *parse_enum<Boundary>(boundary);
@@ -70,7 +75,7 @@ NormalContactOptions ContactArguments::contact_options(Session& session) const {
 
 std::vector<std::string> warnings_of_direction(const ContactArguments& arguments,
                                                const Surface& surface) {
-  if (!arguments.wants_stiffness() || arguments.stick || surface.undefined_points() > 0 ||
+  if (!arguments.wants_stiffness() || arguments.sticks() || surface.undefined_points() > 0 ||
       !std::isfinite(arguments.material.material().tangential_modulus))
     return {};
   return warnings_of_lay(surface_lay(surface), 0,
@@ -80,7 +85,7 @@ std::vector<std::string> warnings_of_direction(const ContactArguments& arguments
 }
 
 std::vector<double> ContactArguments::directions_on(const Surface& surface) const {
-  if (!stick) return {0};
+  if (!sticks()) return {0};
   return directions_of(direction_choice(direction, "--direction"), surface);
 }
 
@@ -122,11 +127,29 @@ void check_adhesion(const ContactArguments& arguments, std::size_t points, const
   session.require_result_name();
 }
 
+/// Throws InvalidInput for options that cannot be combined with --body.
+void check_body(const ContactArguments& arguments) {
+  if (arguments.body_file.empty()) return;
+  for (const auto& [given, option] :
+       {std::pair(arguments.model != "bem", "--model"),
+        {arguments.boundary != "periodic", "--boundary"},
+        {arguments.material.given(),
+         "--young, --poisson, --contact-modulus or "
+         "--tangential-modulus"},
+        {arguments.adhesive(), "--work-of-adhesion"},
+        {arguments.hardness.has_value(), "--hardness"},
+        {arguments.conduction.given(), "--conductivity or --resistivity"}})
+    require(!given, "--body", arguments.body_file,
+            fmt::format("cannot be combined with {}; give one of them", option));
+}
+
 /// Throws InvalidInput for missing options and for options that cannot be combined.
 void check(const ContactArguments& arguments, std::size_t points, const Session& session) {
   const Command& command = *arguments.command;
   const bool bem = arguments.model == "bem";
-  std::vector<std::string> missing = arguments.material.missing(false);
+  check_body(arguments);
+  std::vector<std::string> missing;
+  if (arguments.body_file.empty()) missing = arguments.material.missing(false);
   if (points == 0)
     missing.insert(missing.begin(), "--pressure (or --normal-force, --mean-gap, --indentation)");
   if (bem && !arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
@@ -150,7 +173,7 @@ void check(const ContactArguments& arguments, std::size_t points, const Session&
                "needs a surface that repeats itself; leave out --boundary free");
   require_that(arguments.wants_stiffness() || !arguments.stick, "--stick",
                "given without --stiffness; give both");
-  require_that(arguments.stick || arguments.direction == "auto", "--direction",
+  require_that(arguments.sticks() || arguments.direction == "auto", "--direction",
                "given without --stick: (G*/E*)K has no direction; give both");
   direction_choice(arguments.direction, "--direction");
   check_adhesion(arguments, points, session);
@@ -216,7 +239,7 @@ void run(ContactArguments arguments, Session& session) {
   const std::size_t points = arguments.count();
   check(arguments, points, session);
   if (arguments.model != "bem") return press_summits(arguments, session);
-  arguments.material.material();
+  if (arguments.body_file.empty()) arguments.material.material();
   if (!arguments.wants_stiffness() && arguments.material.contact_modulus &&
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect; it serves to compute K_t, which needs --stiffness");
@@ -322,6 +345,12 @@ void add_contact_command(Program& program) {
              "(gw_moments) or those of the surface (gw_deterministic); default bem");
   arguments->at.add_to(command, "Operating point (several pressures or forces give a curve)");
   arguments->material.add_to(command);
+  command.under("Material");
+  command
+      .add_option("--body", arguments->body_file,
+                  "file of a layered, graded or anisotropic body in place of the material; with "
+                  "--stiffness, K_t is computed by solving each contact in full stick")
+      ->file(FileUse::input);
   add_conduction(command, arguments->conduction);
 
   add_boundary_elements(command, *arguments);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/contact/sweep.hpp>  // analysis/ takes one process only
@@ -24,6 +25,7 @@ struct ContactArguments {
   std::string csv;  ///< table of several surfaces
   SurfaceOptions surface;
   MaterialOptions material;
+  std::string body_file;  ///< file of a body, in place of the material; empty: none
   std::string model = "bem";
 
   OperatingPointsOptions at;
@@ -54,6 +56,10 @@ struct ContactArguments {
   /// Nominal pressures, sorted, Pa, if the operating points are pressures or forces; empty
   /// otherwise. area: nominal area, m².
   std::vector<double> pressures_on(double area) const;
+  /// Whether K_t is computed in full stick; for a body always, since no ratio of moduli gives it.
+  bool sticks() const { return stick || !body_file.empty(); }
+  /// The body of --body.
+  std::optional<Body> body() const;
   NormalContactOptions contact_options(Session& session) const;
   bool adhesive() const { return work_of_adhesion.has_value(); }
   Adhesion adhesion() const;

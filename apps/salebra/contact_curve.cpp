@@ -9,6 +9,7 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/memory.hpp"
+#include "contact/half_space/normal_symbol.hpp"
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
 #include "dry_run.hpp"
@@ -33,14 +34,17 @@ int groups_of(const ContactArguments& arguments, const SurfaceWork& work, const 
 SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& outline,
                     Session& session) {
   SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
-  const double unit = arguments.material.material().contact_modulus * outline.rms_slope;
+  const std::optional<Body> body = arguments.body();
+  const double modulus = body ? detail::reference_modulus(*body, outline.grid)
+                              : arguments.material.material().contact_modulus;
+  const double unit = modulus * outline.rms_slope;
   for (const double pressure : arguments.pressures_on(outline.grid.area()))
     work.loads.push_back(pressure / unit);
   // A gap or an indentation does not tell the load, which decides the cost. A load of 0.05 E*h' is
   // assumed, at which about a tenth of the cells are in contact.
   if (work.loads.empty()) work.loads = {0.05};
   work.normal_stiffness = arguments.wants_stiffness();
-  work.tangential_stiffness = arguments.stick;
+  work.tangential_stiffness = arguments.sticks();
   work.adhesive = arguments.adhesive();
   work.boundary = *parse_enum<Boundary>(arguments.boundary);
   work.groups = groups_of(arguments, work, session);
@@ -103,16 +107,17 @@ int contact_groups(const ContactArguments& arguments, Session& session) {
 }
 
 void press_often(const ContactArguments& arguments, Session& session) {
-  const Material material = arguments.material.material();
+  const std::optional<Body> body = arguments.body();
+  const Material material = body ? Material{} : arguments.material.material();
   const int groups = contact_groups(arguments, session);
   SweepOptions options;
   options.contact = arguments.contact_options(session);
   options.stiffness = arguments.wants_stiffness();
-  options.stick = arguments.stick;
+  options.stick = arguments.sticks();
   options.groups = Groups(session.communicator(), groups);
   Surface surface = arguments.surface.read(session, options.groups->own());
   const std::vector<double> pressures = arguments.pressures_on(surface.grid.area());
-  session.warn_if(warning_of_pressure(pressures.back(), material.contact_modulus));
+  if (!body) session.warn_if(warning_of_pressure(pressures.back(), material.contact_modulus));
   session.warn(warnings_of_direction(arguments, surface));
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
@@ -123,9 +128,11 @@ void press_often(const ContactArguments& arguments, Session& session) {
       flow[k] = flow_of(state, surface, {});
     };
   const ForceCurve curve =
-      joined(sweep_directions(surface, material, pressures, directions, options));
+      joined(body ? sweep_directions(surface, *body, pressures, directions, options)
+                  : sweep_directions(surface, material, pressures, directions, options));
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
   Json answer = {{"curve", to_json(curve)}};
+  if (body) answer["datum"] = std::string(name_of(body->datum()));
   if (!session.communicator().alone()) answer["groups"] = groups;
   add_first_loading(answer, first_loading);
   answer_curve(arguments, curve, std::move(answer), session, flow);

@@ -102,12 +102,13 @@ class OneContact {
   OneContact(const ContactArguments& arguments, Session& session)
       : arguments_(arguments),
         session_(session),
-        material_(arguments.material.material()),
+        body_(arguments.body()),
+        material_(body_ ? Material{} : arguments.material.material()),
         options_(arguments.contact_options(session)),
         surface_(arguments.surface.read(session)) {
     if (arguments.hardness) options_.hardness = *arguments.hardness;
     for (const double pressure : arguments.pressures_on(surface_.grid.area()))
-      session.warn_if(warning_of_pressure(pressure, material_.contact_modulus));
+      if (!body_) session.warn_if(warning_of_pressure(pressure, material_.contact_modulus));
   }
 
   void press() {
@@ -121,8 +122,10 @@ class OneContact {
       session_.warn_if(
           warning_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
     } else {
-      static_cast<NormalContactState&>(state_) = salebra::press(
-          surface_, material_.contact_modulus, point_of(arguments_, surface_), options_);
+      const OperatingPoint point = point_of(arguments_, surface_);
+      static_cast<NormalContactState&>(state_) =
+          body_ ? salebra::press(surface_, *body_, point, options_)
+                : salebra::press(surface_, material_.contact_modulus, point, options_);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     seconds_ = elapsed.count();
@@ -141,6 +144,7 @@ class OneContact {
     answer_ = json_of(
         ContactPressures{state_.mean_pressure, max_pressure(session_.communicator(), state_)});
     answer_.add(json_of<NormalContactState>(state_));
+    if (body_) answer_["datum"] = std::string(name_of(state_.datum));
     if (arguments_.adhesive()) add_adhesion();
     answer_["seconds"] = seconds_;
     if (state_.converged()) add_residual();
@@ -210,11 +214,13 @@ class OneContact {
   void add_stiffness() {
     const double area = surface_.grid.area();
     session_.warn(warnings_of_direction(arguments_, surface_));
-    SweepOptions options{.contact = options_, .stick = arguments_.stick};
+    SweepOptions options{.contact = options_, .stick = arguments_.sticks()};
     if (arguments_.adhesive())
       options.contact.hardness = arguments_.adhesion().pressure_bound(options_.hardness);
+    const std::vector<double> directions = arguments_.directions_on(surface_);
     const std::vector<ForceSample> samples =
-        force_samples(state_, surface_, material_, options, arguments_.directions_on(surface_));
+        body_ ? force_samples(state_, surface_, *body_, options, directions)
+              : force_samples(state_, surface_, material_, options, directions);
     const ForceSample& sample = samples.front();
     const Json columns = json_of(sample, area), rows = json_of(samples, area);
     for (const char* name : {"normal_stiffness", "normal_stiffness_per_area"}) {
@@ -227,9 +233,11 @@ class OneContact {
       CurveColumn& column = beside_.emplace_back(find_quantity(name));
       for (const Json& value : rows[name].elements()) column.values.push_back(value.number());
     }
-    const Conductances found = arguments_.conductances_of(sample, area);
-    answer_.add(conductances_json(found, arguments_.conduction));
-    put_beside(found);
+    if (!body_) {
+      const Conductances found = arguments_.conductances_of(sample, area);
+      answer_.add(conductances_json(found, arguments_.conduction));
+      put_beside(found);
+    }
     if (session_.stopped()) {
       keep();
       throw Interrupted("contact: interrupted; the stiffness was not computed");
@@ -257,7 +265,8 @@ class OneContact {
 
   const ContactArguments& arguments_;
   Session& session_;
-  const Material material_;
+  const std::optional<Body> body_;
+  const Material material_;  ///< of a contact without body
   NormalContactOptions options_;
   const Surface surface_;
   Field initial_;

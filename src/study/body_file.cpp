@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads a linear body from a TOML file.
+#include <salebra/base/enum_names.hpp>
+#include <salebra/study/body_file.hpp>
+#include <utility>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "toml_reader.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::TomlTable;
+using enum Dimension;
+
+ElasticBody read_elastic(TomlTable& table) {
+  return {table.required_quantity("young", pressure),
+          table.required_quantity("poisson", dimensionless)};
+}
+
+Body read_layers(TomlTable& root, std::vector<TomlTable> tables) {
+  std::vector<ElasticLayer> layers;
+  for (TomlTable& table : tables) {
+    const double thickness = table.required_quantity("thickness", length);
+    const auto [young, poisson] = read_elastic(table);
+    layers.push_back({thickness, young, poisson});
+    table.require_no_other_keys();
+    table.located([&] { Body::layered({layers.back()}); });
+  }
+  auto base = root.table("base");
+  if (!base) return Body::layered(layers);
+  const ElasticBody material = read_elastic(*base);
+  base->require_no_other_keys();
+  return base->located([&] {
+    return layers.empty() ? Body::half_space(material) : Body::layered(layers, material);
+  });
+}
+
+Body read_graded(TomlTable table) {
+  const GradedHalfSpace body{table.required_quantity("modulus", pressure),
+                             table.required_quantity("depth", length),
+                             table.required_quantity("exponent", dimensionless),
+                             table.required_quantity("poisson", dimensionless)};
+  table.require_no_other_keys();
+  return table.located([&] { return Body::graded(body); });
+}
+
+Body read_anisotropic(TomlTable table) {
+  const auto modulus = [&](const char* key) { return table.required_quantity(key, pressure); };
+  const TransverseStiffness stiffness{modulus("c11"), modulus("c33"), modulus("c13"),
+                                      modulus("c44"), modulus("c66")};
+  table.require_no_other_keys();
+  return table.located([&] { return Body::transversely_isotropic(stiffness); });
+}
+
+}  // namespace
+
+Body read_body(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = 4 << 20;
+  TomlTable root = TomlTable::parse(detail::InputFile(file).content(most), file.string());
+  const auto chosen = root.choice("datum", names_of<Datum>());
+  const Datum datum = chosen ? EnumNames<Datum>::values[*chosen].first : Datum::mean_plane;
+  const bool layered = root.has("layer") || root.has("base");
+  const bool graded = root.has("graded"), anisotropic = root.has("anisotropic");
+  root.check(layered + graded + anisotropic == 1,
+             graded        ? "graded"
+             : anisotropic ? "anisotropic"
+                           : "layer",
+             "a file describes one body; give [[layer]] with an optional [base], [base] alone, "
+             "[graded] or [anisotropic]");
+  const Body body = graded        ? read_graded(root.required_table("graded"))
+                    : anisotropic ? read_anisotropic(root.required_table("anisotropic"))
+                                  : read_layers(root, root.tables("layer"));
+  root.require_no_other_keys();
+  return root.located([&] { return body.measured_from(datum); });
+}
+
+}  // namespace salebra

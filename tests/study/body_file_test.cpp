@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <salebra/base/error.hpp>
+#include <salebra/study/body_file.hpp>
+#include <string>
+
+using namespace salebra;
+
+namespace {
+
+// The file of a body, removed at the end.
+class BodyFile {
+ public:
+  ~BodyFile() { std::filesystem::remove(path_); }
+  Body read(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return read_body(path_);
+  }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                ("salebra-body-" + std::to_string(getpid()) + ".toml");
+};
+
+const std::string film = "[[layer]]\nthickness = \"5um\"\nyoung = \"3GPa\"\npoisson = 0.49\n",
+                  steel = "[base]\nyoung = \"210GPa\"\npoisson = 0.3\n";
+
+}  // namespace
+
+TEST_CASE("A file describes the body that the library makes", "[body_file]") {
+  const BodyFile file;
+  const double q = 3e5;
+  const ElasticLayer layer{5e-6, 3e9, 0.49};
+  const ElasticBody base{210e9, 0.3};
+  CHECK(file.read(film + steel).compliance(q).normal ==
+        Body::layered({layer}, base).compliance(q).normal);
+  CHECK(file.read(film + film).compliance(q).normal ==
+        Body::layered({layer, layer}).compliance(q).normal);
+  CHECK(file.read(steel).half_space_material()->contact_modulus ==
+        Material::of_bodies(base).contact_modulus);
+  const Body from_base = file.read("datum = \"base\"\n" + film);
+  CHECK(from_base.datum() == Datum::base);
+  CHECK(from_base.compliance(0).normal > 0);
+  CHECK(file.read(film).datum() == Datum::mean_plane);
+  CHECK(file.read("[graded]\nmodulus = \"3GPa\"\ndepth = \"1mm\"\nexponent = 0.5\npoisson = 0.3\n")
+            .compliance(q)
+            .across == Body::graded({3e9, 1e-3, 0.5, 0.3}).compliance(q).across);
+  CHECK(file.read("[anisotropic]\nc11 = \"161GPa\"\nc33 = \"61GPa\"\nc13 = \"50GPa\"\n"
+                  "c44 = \"38.3GPa\"\nc66 = \"63.4GPa\"\n")
+            .compliance(q)
+            .normal ==
+        Body::transversely_isotropic({161e9, 61e9, 50e9, 38.3e9, 63.4e9}).compliance(q).normal);
+}
+
+TEST_CASE("A file of a body names each mistake with its line", "[body_file]") {
+  const BodyFile file;
+  using Catch::Contains;
+  CHECK_THROWS_WITH(file.read("# nothing\n"), Contains("describes one body"));
+  CHECK_THROWS_WITH(file.read(film + "[graded]\nmodulus = 1\n"), Contains("describes one body"));
+  CHECK_THROWS_WITH(file.read(film + "color = 3\n"), Contains(":5:") && Contains("color"));
+  CHECK_THROWS_WITH(file.read("[[layer]]\nthickness = \"5um\"\nyoung = \"3GPa\"\n"),
+                    Contains("poisson"));
+  CHECK_THROWS_WITH(file.read("[[layer]]\nthickness = \"5um\"\nyoung = \"3GPa\"\npoisson = 0.6\n"),
+                    Contains(":4:") && Contains("poisson") && Contains("0.6"));
+  CHECK_THROWS_WITH(file.read(film + "[base]\nyoung = 0\npoisson = 0.3\n"),
+                    Contains(":6:") && Contains("young"));
+  CHECK_THROWS_WITH(file.read("datum = \"floor\"\n" + film), Contains("datum"));
+  CHECK_THROWS_WITH(file.read("datum = \"base\"\n" + film + steel),
+                    Contains("datum") && Contains("rigid base"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 10\nc33 = 10\nc13 = 9\nc44 = 3\nc66 = 3\n"),
+                    Contains(":4:") && Contains("c13"));
+}
