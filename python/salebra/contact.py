@@ -6,6 +6,7 @@ from ._core import (
     AdhesiveContactState as AdhesiveContactState,
     AdhesiveCycle as AdhesiveCycle,
     AdhesivePoint as AdhesivePoint,
+    Body as Body,
     ContactDistributions as ContactDistributions,
     ContactSpot as ContactSpot,
     ContactSpots as ContactSpots,

@@ -4,6 +4,7 @@
 
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
@@ -78,6 +79,90 @@ tangential_modulus : float, optional
         "Warning about a probable mistake in the unit of one of them, or None.");
 }
 
+void bind_body(nb::module_& m) {
+  nb::class_<Body>(m, "Body",
+                   R"(A linear elastic body, known by the response of its surface to waves of load.
+
+:func:`press` and :func:`sweep_pressures` take it in place of a material, for periodic surfaces, and :func:`normal_stiffness` and
+:func:`stick_stiffness` give its stiffnesses. Displacements are measured from the mean plane of the surface, or from the rigid base of a
+layer (`measured_from`); K, K_t, indentation and energy depend on this choice, the pressures under a given load do not. Waves longer than
+the period of the surface do not exist: a layer much thicker than the period is a half-space.
+
+>>> coated = salebra.Body.layered([(5e-6, 3e9, 0.49)], salebra.ElasticBody(210e9, 0.3))
+>>> f"{coated.compliance(1e6)['normal']:.4g}"
+'4.948e-16'
+)")
+      .def_static("half_space", &Body::half_space, nb::arg("first"),
+                  nb::arg("second") = ElasticBody{},
+                  "Homogeneous isotropic half-spaces; results have the bits of their material.")
+      .def_static(
+          "layered",
+          [](const std::vector<std::tuple<double, double, double>>& layers,
+             const ElasticBody& base) {
+            std::vector<ElasticLayer> found;
+            for (const auto& [thickness, young, poisson] : layers)
+              found.push_back({thickness, young, poisson});
+            return Body::layered(found, base);
+          },
+          nb::arg("layers"), nb::arg("base") = ElasticBody{},
+          "Bonded layers (thickness, Young's modulus, Poisson's ratio), from the surface down, on "
+          "a "
+          "half-space or, by default, on a rigid base.")
+      .def_static(
+          "graded",
+          [](double modulus, double depth, double exponent, double poisson) {
+            return Body::graded({modulus, depth, exponent, poisson});
+          },
+          nb::arg("modulus"), nb::arg("depth"), nb::arg("exponent"), nb::arg("poisson"),
+          "A half-space with E = modulus·(z/depth)^exponent at the depth z, 0 <= exponent < 1.")
+      .def_static(
+          "transversely_isotropic",
+          [](double c11, double c33, double c13, double c44, double c66) {
+            return Body::transversely_isotropic({c11, c33, c13, c44, c66});
+          },
+          nb::arg("c11"), nb::arg("c33"), nb::arg("c13"), nb::arg("c44"), nb::arg("c66"),
+          "A transversely isotropic half-space whose axis is the normal of the surface; "
+          "stiffnesses in Pa.")
+      .def_static(
+          "tabulated",
+          [](std::vector<double> wave_number, std::vector<double> normal,
+             std::vector<double> in_plane, std::vector<double> across, double uniform_normal,
+             double uniform_tangential) {
+            return Body::tabulated({std::move(wave_number), std::move(normal), std::move(in_plane),
+                                    std::move(across), uniform_normal, uniform_tangential});
+          },
+          nb::arg("wave_number"), nb::arg("normal"), nb::arg("in_plane") = std::vector<double>(),
+          nb::arg("across") = std::vector<double>(), nb::arg("uniform_normal") = infinite,
+          nb::arg("uniform_tangential") = infinite,
+          "A response given at wave numbers, m/Pa; ln C is a cubic of ln q between them. The "
+          "uniform responses are those of a body on a rigid base.")
+      .def_static("pair", &Body::pair, nb::arg("first"), nb::arg("second"),
+                  "Two bodies in contact: their compliances add.")
+      .def(
+          "measured_from",
+          [](const Body& self, const Choice<Datum>& datum) {
+            return self.measured_from(datum.value("datum"));
+          },
+          nb::arg("datum"), "The same body with displacements from the mean plane or its base.")
+      .def_prop_ro(
+          "datum", [](const Body& self) { return std::string(name_of(self.datum())); },
+          "'mean_plane' or 'base': what displacements are measured from.")
+      .def(
+          "compliance",
+          [](const Body& self, double wave_number) {
+            const SurfaceCompliance c = self.compliance(wave_number);
+            nb::typed<nb::dict, nb::str, double> found;
+            found["normal"] = c.normal;
+            found["in_plane"] = c.in_plane;
+            found["across"] = c.across;
+            found["coupling"] = c.coupling;
+            return found;
+          },
+          nb::arg("wave_number"),
+          "Displacements per unit load of a wave, m/Pa: normal, in_plane (along the wave vector), "
+          "across (perpendicular to it) and their coupling; NaN if unknown.");
+}
+
 void bind_state(nb::module_& m) {
   auto state = described_class<BoundContact>(
       m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
@@ -118,14 +203,16 @@ Unless `converged`, the numbers describe the last iterate: do not use them.
 void bind_presses(nb::module_& m) {
   m.def(
       "press",
-      [](const BoundSurface& surface, const MaterialArgument& material,
+      [](const BoundSurface& surface, const PressedArgument& material,
          std::optional<double> pressure, std::optional<double> mean_gap,
          std::optional<double> indentation, std::optional<double> force, double tolerance,
          int max_iterations, const Choice<Boundary>& boundary, const Choice<Precision>& precision,
          double hardness, const std::optional<FieldArgument>& initial_pressure,
          const ProgressArgument& progress) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
-        const double contact_modulus = material.material().contact_modulus;
+        const std::optional<Body>& body = material.body;
+        const double contact_modulus = body ? std::numeric_limits<double>::quiet_NaN()
+                                            : material.material.material().contact_modulus;
         const std::unique_ptr<BorrowedField> initial =
             initial_pressure ? std::make_unique<BorrowedField>(*initial_pressure) : nullptr;
         NormalContactOptions options{.tolerance = tolerance,
@@ -138,10 +225,12 @@ void bind_presses(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
+              const OperatingPoint point =
+                  operating_point_of(pressure, mean_gap, indentation, force);
               return new BoundContact{
-                  press(surface.surface, contact_modulus,
-                        operating_point_of(pressure, mean_gap, indentation, force), options),
-                  surface.surface.grid, contact_modulus, options.boundary};
+                  body ? press(surface.surface, *body, point, options)
+                       : press(surface.surface, contact_modulus, point, options),
+                  surface.surface.grid, contact_modulus, options.boundary, body};
             },
             surface.surface.communicator);
       },
@@ -162,8 +251,8 @@ by nested conjugate gradients on the contact set. Each of the 15 to 100 iteratio
 Parameters
 ----------
 surface : Surface
-material : Material or float
-    A number is E* > 0, Pa.
+material : Material, Body or float
+    A number is E* > 0, Pa. A body other than a half-space needs a periodic surface.
 pressure : float, optional
     Nominal, > 0, Pa, below the hardness.
 mean_gap : float, optional
@@ -213,7 +302,9 @@ doi:10.1115/1.2833523.
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return normal_stiffness(state, state.grid, state.contact_modulus, options);
+              return state.body
+                         ? normal_stiffness(state, state.grid, *state.body, options)
+                         : normal_stiffness(state, state.grid, state.contact_modulus, options);
             },
             state.communicator);
       },
@@ -221,7 +312,7 @@ doi:10.1115/1.2833523.
       nb::arg("max_iterations") = 1000, nb::arg("progress") = false,
       R"(Normal stiffness K = dF/dδ of a state, N/m, by one linear solve on its fixed contact set.
 
-Infinite for a periodic surface in full contact; NaN if the solve did not converge or was interrupted.
+Infinite for a periodic surface in full contact, unless the body is measured from its base; NaN if the solve did not converge or was interrupted.
 )");
 }
 
@@ -318,6 +409,7 @@ void bind_spots(nb::module_& m) {
 
 void bind_contact(nb::module_& m) {
   bind_material(m);
+  bind_body(m);
   bind_state(m);
   bind_presses(m);
   bind_first_loading(m);

@@ -92,12 +92,12 @@ model : str
 void bind_sweep(nb::module_& m) {
   m.def(
       "sweep_pressures",
-      [](const BoundSurface& surface, const MaterialArgument& given, const Values& pressures,
+      [](const BoundSurface& surface, const PressedArgument& given, const Values& pressures,
          bool stiffness, bool stick, int concurrent_loads, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const Choice<Precision>& precision, double hardness,
          const std::variant<double, std::string>& direction, const ProgressArgument& progress) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
-        const Material material = given.material();
+        const Material material = given.body ? Material{} : given.material.material();
         SweepOptions options;
         options.contact = {.tolerance = tolerance,
                            .max_iterations = max_iterations,
@@ -118,7 +118,9 @@ void bind_sweep(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.contact.on_progress = std::move(told);
-              return sweep_pressures(surface.surface, material, pressures.values, options);
+              return given.body
+                         ? sweep_pressures(surface.surface, *given.body, pressures.values, options)
+                         : sweep_pressures(surface.surface, material, pressures.values, options);
             },
             surface.surface.communicator);
       },
@@ -133,8 +135,8 @@ void bind_sweep(nb::module_& m) {
 Parameters
 ----------
 surface : Surface
-material : Material or float
-    A number is E* > 0, Pa; the curve then has no K_t.
+material : Material, Body or float
+    A number is E* > 0, Pa; the curve then has no K_t. A body other than a half-space has K_t only with `stick`.
 pressures : array_like
     > 0, increasing, Pa.
 stiffness : bool

@@ -2,12 +2,14 @@
 // Bindings of tangential stiffness, partial slip and sliding contact.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 
 #include <memory>
 #include <salebra/contact/normal/punch.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
+#include <variant>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -29,9 +31,10 @@ void bind_stiffness(nb::module_& m) {
       "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.");
   m.def(
       "stick_stiffness",
-      [](const ContactArgument& contact, const Grid2D& grid, const Material& material,
-         double tolerance, int max_iterations, const Choice<Boundary>& boundary, bool hold_lateral,
-         bool along_x_only, const ProcessesArgument& comm, const ProgressArgument& progress) {
+      [](const ContactArgument& contact, const Grid2D& grid,
+         const std::variant<Material, Body>& material, double tolerance, int max_iterations,
+         const Choice<Boundary>& boundary, bool hold_lateral, bool along_x_only,
+         const ProcessesArgument& comm, const ProgressArgument& progress) {
         StickOptions options{.tolerance = tolerance,
                              .max_iterations = max_iterations,
                              .boundary = boundary.value("boundary"),
@@ -41,8 +44,12 @@ void bind_stiffness(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return stick_stiffness(contact.set, grid, material, options, along_x_only, {},
-                                     communicator);
+              return std::visit(
+                  [&](const auto& pressed) {
+                    return stick_stiffness(contact.set, grid, pressed, options, along_x_only, {},
+                                           communicator);
+                  },
+                  material);
             },
             communicator);
       },
@@ -59,8 +66,8 @@ Parameters
 contact : array_like of bool
     (nx, ny). Cells in contact, such as ``state.contact_pressure > 0``.
 grid : Grid2D
-material : Material
-    Must have the constants of the two bodies.
+material : Material or Body
+    A material must have the constants of the two bodies.
 tolerance : float
     Tolerance of the displacement, 1e-14 … 1e-1; the error of K_t is its square.
 hold_lateral : bool

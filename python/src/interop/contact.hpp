@@ -4,6 +4,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <string>
@@ -17,8 +18,9 @@ namespace salebra::python {
 /// does not have to give them again.
 struct BoundContact : NormalContactState {
   Grid2D grid;
-  double contact_modulus = 0;
+  double contact_modulus = 0;  ///< NaN for a body
   Boundary boundary = Boundary::periodic;
+  std::optional<Body> body = {};  ///< not in the description: a pickled state loses it
 };
 
 constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
@@ -49,6 +51,12 @@ struct MaterialArgument {
   }
 };
 
+/// An argument that is a MaterialArgument or any linear body.
+struct PressedArgument {
+  MaterialArgument material;
+  std::optional<Body> body;
+};
+
 }  // namespace salebra::python
 
 namespace nanobind::detail {
@@ -64,6 +72,24 @@ struct type_caster<salebra::python::MaterialArgument> {
       return true;
     }
     return try_cast(source, value.given);
+  }
+};
+
+template <>
+struct type_caster<salebra::python::PressedArgument> {
+  NB_TYPE_CASTER(salebra::python::PressedArgument,
+                 const_name<salebra::Material>() + const_name(" | ") + const_name<salebra::Body>() +
+                     const_name(" | float"))
+  bool from_python(handle source, uint32_t flags, cleanup_list* cleanup) noexcept {
+    make_caster<salebra::python::MaterialArgument> material;
+    if (material.from_python(source, flags, cleanup)) {
+      value.material = material.value;
+      return true;
+    }
+    const salebra::Body* body = nullptr;
+    if (!try_cast(source, body)) return false;
+    value.body = *body;
+    return true;
   }
 };
 
