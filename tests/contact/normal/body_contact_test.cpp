@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <vector>
 
+#include "ranks_in_threads.hpp"
 #include "rough_surface.hpp"
 
 using namespace salebra;
@@ -201,6 +203,10 @@ TEST_CASE(
   CHECK(curve.samples[1].normal_stiffness == Approx(stiffness).epsilon(1e-8));
   // The sweep solves for the tractions to 1e-3, and the stiffness is right to the square of that.
   CHECK(curve.samples[1].tangential_stiffness == Approx(forces(0, 0)).epsilon(1e-5));
+  const std::vector<ForceCurve> both =
+      sweep_directions(surface, body, {mean}, {0, pi / 2}, {.stick = true});
+  REQUIRE(both.size() == 2);
+  CHECK(both[1].samples[0].tangential_stiffness == Approx(forces(1, 1)).epsilon(1e-5));
   CHECK(std::isnan(
       sweep_pressures(surface, body, {mean}, {.stick = false}).samples[0].tangential_stiffness));
 }
@@ -378,6 +384,32 @@ TEST_CASE("A hardness bounds the pressures on a coating", "[body]") {
   CHECK(elastic < 1e-8 * rms);
   CHECK(least > -1e-8 * rms);
   CHECK(saturated < 1e-8 * rms);
+}
+
+TEST_CASE("A contact on a layer over processes has the bits of one process", "[body]") {
+  const Grid2D grid{96, 64, 96 * cell, 64 * cell};
+  const Surface surface = test::rough_surface(grid, {.seed = 3});
+  const Body body = Body::layered({{6 * cell, 3e9, 0.4}}).measured_from(Datum::base);
+  const auto numbers_of = [&](const Surface& pressed) {
+    const NormalContactState state = press(pressed, body, at_pressure(5e7));
+    const StickStiffness stick =
+        stick_stiffness(contact_set(state), grid, body, {}, false, {}, pressed.communicator);
+    return std::vector{state.mean_gap,
+                       state.indentation,
+                       state.elastic_energy,
+                       stick.xx,
+                       stick.xy,
+                       stick.yy,
+                       normal_stiffness(state, grid, body),
+                       double(state.iterations)};
+  };
+  const std::vector<double> alone = numbers_of(surface);
+  testing::run_ranks(GENERATE(2, 3), [&](const Communicator& all) {
+    Surface mine{grid, {}, surface.periodic, surface.origin, all};
+    const RowPartition rows = mine.partition();
+    mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
+    if (numbers_of(mine) != alone) throw Error("other bits of a number");
+  });
 }
 
 TEST_CASE("What a body cannot do is refused by name", "[body]") {
