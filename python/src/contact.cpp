@@ -227,10 +227,13 @@ void bind_presses(nb::module_& m) {
               options.on_progress = std::move(told);
               const OperatingPoint point =
                   operating_point_of(pressure, mean_gap, indentation, force);
-              return new BoundContact{
-                  body ? press(surface.surface, *body, point, options)
-                       : press(surface.surface, contact_modulus, point, options),
-                  surface.surface.grid, contact_modulus, options.boundary, body};
+              return new BoundContact{body
+                                          ? press(surface.surface, *body, point, options)
+                                          : press(surface.surface, contact_modulus, point, options),
+                                      surface.surface.grid,
+                                      contact_modulus,
+                                      options.boundary,
+                                      {body}};
             },
             surface.surface.communicator);
       },
@@ -302,8 +305,8 @@ doi:10.1115/1.2833523.
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return state.body
-                         ? normal_stiffness(state, state.grid, *state.body, options)
+              return state.pressed.body
+                         ? normal_stiffness(state, state.grid, *state.pressed.body, options)
                          : normal_stiffness(state, state.grid, state.contact_modulus, options);
             },
             state.communicator);

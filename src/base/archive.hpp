@@ -73,10 +73,10 @@ template <class Archive, class T>
 void archive(Archive& through, T& value);
 
 /// Whether a member of type T is not stored: progress callbacks and communicators belong to a call,
-/// not to the value.
+/// not to the value. Other types may say so by a member type left_out.
 template <class T>
-constexpr bool is_left_out =
-    is_function<T> || std::is_same_v<T, Communicator> || std::is_empty_v<T>;
+constexpr bool is_left_out = is_function<T> || std::is_same_v<T, Communicator> ||
+                             std::is_empty_v<T> || requires { typename T::left_out; };
 
 /// Minimum number of bytes that an archived value of type T takes. A damaged file whose element
 /// count does not fit into the remaining bytes is thus detected.

@@ -14,13 +14,20 @@
 
 namespace salebra::python {
 
+/// The body that was pressed, if it is not a half-space of a contact modulus. A pickle does not keep
+/// it.
+struct PressedBody {
+  using left_out = void;
+  std::optional<Body> body = {};
+};
+
 /// The Python object of a solved contact. It also keeps grid and contact modulus, so that the user
 /// does not have to give them again.
 struct BoundContact : NormalContactState {
   Grid2D grid;
   double contact_modulus = 0;  ///< NaN for a body
   Boundary boundary = Boundary::periodic;
-  std::optional<Body> body = {};  ///< not in the description: a pickled state loses it
+  PressedBody pressed = {};
 };
 
 constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
@@ -29,6 +36,7 @@ constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
   visit(&S::grid, Kept{"grid", "points and size"});
   visit(&S::contact_modulus, Kept{"contact_modulus", "contact modulus E*", Dimension::pressure});
   visit(&S::boundary, Kept{"boundary", "'periodic' or 'free'"});
+  keep(visit, &S::pressed);
 }
 
 /// Throws InvalidInput if the contact is distributed over processes. purpose: what needs it as a
