@@ -701,6 +701,12 @@ class TwinRun {
     if (lay.stretch == 1) {
       twin_.stretch.value = twin_.stretch.low = 1;
       twin_.stretch.high = found_.greatest_stretch;
+      if (found_.greatest_stretch > 1.5)
+        note(
+            "a lay of up to " +
+            format_quantity(found_.greatest_stretch, Dimension::dimensionless, 2) +
+            " to 1 is possible, of which the limits of the other numbers know nothing; give larger "
+            "maps");
       return;
     }
     std::vector<double> turns;

@@ -145,6 +145,17 @@ double noise_of(const ScanSpectrum& scan) {
   return least / 2;
 }
 
+/// −d ln P/d ln q of the power in isotropic rings below a wave number: steep beyond a cut-off, where
+/// there is only what the window leaks.
+double slope_at(const ScanSpectrum& scan, double wavenumber) {
+  constexpr double ratio = 1.6;
+  const auto power = [&](double q) {
+    const auto above = std::ranges::lower_bound(scan.wavenumber, q) - scan.wavenumber.begin();
+    return scan.psd[std::min(static_cast<std::size_t>(above), scan.psd.size() - 1)];
+  };
+  return std::log(power(wavenumber / ratio) / power(wavenumber)) / std::log(ratio);
+}
+
 /// visit(κ_x, κ_y, power, count) of the modes under the Hann window with both |κ| below limits; a
 /// mode counts for its conjugate, too.
 template <class Visitor>
@@ -201,11 +212,11 @@ class LaySearch {
         directed && log_stretch > significant_vector * error && log_stretch > least_log_stretch;
     refuse_differing_scans(at_end);
     refuse_other_spectra(significant ? ellipse : Ellipse{});
-    if (directed && end.error() > 0.3)
+    // Without a solution, the rings of a stronger lay are beyond the grids or the cut-off.
+    if (directed && (end.error() > 0.3 || end.length() > 0.1 * end.error()))
       refuse(
-          fmt::format("have a lay above {:.2g} to 1, of which their grids show too little; give "
-                      "maps of more points",
-                      std::exp(none.length())));
+          "have a lay, of whose strength their grids show too little; give larger maps of more "
+          "points");
     if (end.weight > 0) found_.greatest_stretch = std::exp(log_stretch + two_sided * error);
     if (!significant) return std::move(found_);
     found_.lay = lay;
@@ -316,6 +327,7 @@ class LaySearch {
         if (ring.modes < 4) break;
         const double mean = ring.power / ring.modes;
         if (!(mean > 3 * first.noise)) break;
+        if (slope_at(*first.scan, unit * limits[used] * std::sqrt(lay.stretch)) > steepest) break;
         const double position = ring.log_u / ring.modes, q = unit * std::exp(position);
         if (first.scan->instrument.has_tip()) {
           const double area = pi * unit * unit *
