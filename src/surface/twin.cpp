@@ -480,10 +480,8 @@ class TwinRun {
   std::vector<TwinData> data_of_all() {
     std::vector<TwinData> data = grouped(scans_, left_out_, found_.lay, responses_);
     std::size_t bins = 0;
-    for (TwinData& group : data) {
-      bins += group.bins.size();
-      group.tail = group.tail || skew_;
-    }
+    for (const TwinData& group : data) bins += group.bins.size();
+    if (skew_) allow_skew_heights(scans_, data);
     require(bins >= 8, "scans", bins,
             "bins of wavelengths are usable, which is too few; give larger scans or finer tips");
     return data;

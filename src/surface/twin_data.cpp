@@ -269,4 +269,13 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
   return data;
 }
 
+void allow_skew_heights(const std::vector<ScanSpectrum>& scans, std::vector<TwinData>& data) {
+  for (TwinData& group : data) {
+    group.tail = true;
+    ScanScatter scatter;
+    scatter.add(scans, group);
+    group.scan_calibration = std::max(group.scan_calibration, scatter.error());
+  }
+}
+
 }  // namespace salebra::twin_detail

@@ -55,6 +55,11 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
                               const std::vector<bool>& left_out, const Lay& lay,
                               Responses& responses);
 
+/// Allows for heights that are not Gaussian: power beyond the cut-off, of sums of waves, and scans
+/// that differ the more the smaller they are, since the slope of a skew surface changes with its
+/// height. The scatter between scans is therefore that of each group.
+void allow_skew_heights(const std::vector<ScanSpectrum>& scans, std::vector<TwinData>& data);
+
 /// The scans of each group, without those left out.
 std::vector<std::vector<std::size_t>> members_of(const std::vector<ScanSpectrum>& scans,
                                                  const std::vector<bool>& left_out);
