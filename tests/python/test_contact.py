@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -252,3 +253,48 @@ def test_a_law_is_exported_as_a_deck() -> None:
         law.export("abaqus")
     with pytest.raises(salebra.InvalidInput, match="format"):
         law.export("nastran")  # type: ignore[arg-type]
+
+
+def test_a_body_takes_the_place_of_a_material() -> None:
+    surface = generated()
+    steel = salebra.contact.ElasticBody(210e9, 0.3)
+    material = salebra.Material.of_bodies(steel)
+    half_space = salebra.contact.Body.half_space(steel)
+    expected = salebra.press(surface, material, pressure=2e8)
+    state = salebra.press(surface, half_space, pressure=2e8)
+    assert np.array_equal(state.contact_pressure, expected.contact_pressure)
+    assert salebra.contact.normal_stiffness(state) == salebra.contact.normal_stiffness(expected)
+    with pytest.raises(salebra.InvalidInput, match="contact_modulus"):
+        salebra.contact.normal_stiffness(pickle.loads(pickle.dumps(state)))  # a pickle does not keep the body
+
+
+def test_layers_graded_and_anisotropic_bodies_press_and_stick() -> None:
+    surface = generated()
+    thickness, young, poisson = 50e-6, 3e9, 0.4
+    layer = salebra.contact.Body.layered([(thickness, young, poisson)])
+    base = layer.measured_from("base")
+    assert (layer.datum, base.datum) == ("mean_plane", "base")
+    shear = young / (2 * (1 + poisson))
+    assert base.compliance(0)["in_plane"] == pytest.approx(thickness / shear)
+    assert layer.compliance(1e9)["across"] == pytest.approx(1 / (shear * 1e9))  # short waves: the layer alone
+    curve = salebra.sweep_pressures(surface, base, [1e6, 3e6], stick=True)
+    assert curve.converged.all()
+    state = salebra.press(surface, base, pressure=3e6)
+    assert curve.normal_stiffness[1] == pytest.approx(salebra.contact.normal_stiffness(state), rel=1e-8)
+    stick = salebra.contact.stick_stiffness(state.contact_pressure > 0, surface.grid, base)
+    assert curve.tangential_stiffness[1] == pytest.approx(stick.xx, rel=1e-5)
+    # Springs in series: the compression of the layer adds to the motion of its mean plane.
+    on_plane = salebra.contact.normal_stiffness(salebra.press(surface, layer, pressure=3e6))
+    added = 1 / salebra.contact.normal_stiffness(state) - 1 / on_plane
+    assert added * surface.grid.area == pytest.approx(base.compliance(0)["normal"], rel=1e-6)
+    pair = salebra.contact.Body.pair(layer, salebra.contact.Body.graded(3e9, 1e-6, 0.5, 0.3))
+    zinc = salebra.contact.Body.transversely_isotropic(161e9, 61e9, 50e9, 38.3e9, 63.4e9)
+    for body in (pair, zinc):
+        assert salebra.press(surface, body, pressure=1e6).converged
+    wave_number = np.geomspace(1e3, 1e9, 200)
+    table = salebra.contact.Body.tabulated(wave_number, [layer.compliance(q)["normal"] for q in wave_number])
+    assert salebra.press(surface, table, pressure=3e6).mean_gap == pytest.approx(state.mean_gap, rel=1e-4)
+    with pytest.raises(salebra.InvalidInput, match="boundary"):
+        salebra.press(surface, layer, pressure=1e6, boundary="free")
+    with pytest.raises(salebra.InvalidInput, match="tangential response"):
+        salebra.contact.stick_stiffness(state.contact_pressure > 0, surface.grid, table)

