@@ -6,6 +6,7 @@ import re
 
 _ROOT = pathlib.Path(__file__).resolve().parent.parent
 _TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/**/*.hpp", "apps/salebra/*.hpp")
+_KINDS = ("Quantity", "Extensive", "WhereKnown")
 _PER_AREA = {"N": "Pa", "J": "J/m^2", "N/m": "Pa/m"}
 
 
@@ -19,9 +20,10 @@ def names():
         for source in sorted(_ROOT.glob(pattern)):
             text = re.sub(r"^\s*///.*\n", "", source.read_text(), flags=re.M)
             begin = r'(\w+)\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),'
+            text = re.sub(r'WhereKnown\{\{("[^{}]*")\}\}', r"WhereKnown{\1}", text)
             text = re.sub(r"Extensive\{quantity::(\w+)\}", lambda found: 'Extensive{"%s", %s, "%s"}' % (found[1], *shared[found[1]]), text)
-            entries = [one for one in re.findall(begin + r'\s*((?:"[^"]*"\s*)+)\}', text) if one[0] in ("Quantity", "Extensive", one[1])]
-            written = sum(kind in ("Quantity", "Extensive", name) for kind, name, _ in re.findall(begin, text))
+            entries = [one for one in re.findall(begin + r'\s*((?:"[^"]*"\s*)+)\}', text) if one[0] in (*_KINDS, one[1])]
+            written = sum(kind in (*_KINDS, name) for kind, name, _ in re.findall(begin, text))
             if len(entries) != written:
                 raise ValueError(f"{source}: {written} quantities, {len(entries)} of them understood; has their form changed?")
             for kind, name, dimension, meaning in entries:

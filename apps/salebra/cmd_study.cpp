@@ -285,13 +285,17 @@ std::string adhesion_table(const StudyResult& result) {
 /// The damping constant at each load in one direction, with its assumptions.
 std::string damping_text(const StudyResult& result, const StudySolution& answer) {
   const double friction = result.configuration.known.friction_coefficient;
-  const std::string motion =
-      fmt::format("Damping constant: {}{}{}\n", motion_text(result.configuration),
-                  std::isnan(answer.direction) ? "" : ", " + direction_in_words(answer.direction),
-                  std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
+  const std::string motion = "Damping constant: " + motion_text(result.configuration);
+  const std::string beside = fmt::format(
+      "{}{}", std::isnan(answer.direction) ? "" : ", " + direction_in_words(answer.direction),
+      std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
+  // "µ" has two bytes and is one column wide.
+  constexpr std::size_t columns = 80;
+  const bool fits = motion.size() + beside.size() <= columns;
   const AssumptionReport assumptions = assumptions_of(answer, result);
-  return motion + assumptions.warning() + answer_table(result, answer) + notes(result, answer) +
-         "\n" + assumptions.text();
+  return motion + (fits || beside.empty() ? beside : ",\n  " + beside.substr(2)) + "\n" +
+         assumptions.warning() + answer_table(result, answer) + notes(result, answer) + "\n" +
+         assumptions.text();
 }
 
 std::string study_text(const StudyResult& result, const StudySolution& answer) {

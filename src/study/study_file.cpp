@@ -421,8 +421,6 @@ void write_picture(ResultGroup group, const SurfacePicture& picture) {
   });
 }
 
-/// Writes the groups of one point of the parameter grid. where: path in front of their names ("" or
-/// "points/3/").
 /// Writes the results that depend on the direction of the tangential motion, in a further direction.
 void write_direction(ResultFile& output, const std::string& where, const StudyResult& result) {
   const auto table = [&](const char* name) { return Table(output.group(where + name)); };
@@ -434,6 +432,8 @@ void write_direction(ResultFile& output, const std::string& where, const StudyRe
   write_assumptions(output.group(where + "assumptions"), result, answer);
 }
 
+/// Writes the groups of one point of the parameter grid. where: path in front of their names ("" or
+/// "points/3/").
 void write_study_groups(ResultFile& output, const std::string& where, const StudyResult& result) {
   const auto table = [&](const char* name) { return Table(output.group(where + name)); };
   write_surfaces(table("surface"), result);
@@ -454,6 +454,8 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;
   if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
+  // in_directions() copies all surfaces.
+  if (result.realisations.front().other_directions.empty()) return;
   const std::vector<StudyResult> directions = result.in_directions();
   for (std::size_t k = 1; k < directions.size(); ++k)
     write_direction(output, fmt::format("{}directions/{}/", where, k), directions[k]);

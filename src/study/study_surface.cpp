@@ -115,8 +115,8 @@ void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration
         "the tangential stiffness and the damping constant are those of an isotropic surface, "
         "(G*/E*)K; along and across the lay they differ, as stick solves show";
   if (theories)
-    by_lay += std::string(by_lay.empty() ? "" : ". ") +
-              "the models other than boundary elements assume an isotropic surface";
+    by_lay += by_lay.empty() ? "the models other than boundary elements assume an isotropic surface"
+                             : ". The models other than boundary elements do too";
   std::ranges::move(
       warnings_of_lay(
           lay_of(configuration, surface), significant_skewness(surface), by_lay,

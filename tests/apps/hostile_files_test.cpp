@@ -171,6 +171,11 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
       INFO(result.err);
       // Such a build reads no file for a report.
       if (holds(result.err, "this build of salebra does not contain plotly.js")) continue;
+      // A folder stands for its files, of which one is a surface.
+      if (file == "." && command.starts_with("statistics")) {
+        CHECK(result.status == 1);
+        continue;
+      }
       check_harmless(result, "");
     }
   }

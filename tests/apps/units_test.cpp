@@ -33,7 +33,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
            "decay_length_by_weights.equal decay_length_by_weights.force")},
       {length_squared, words("moment0 contact_area_min contact_area_max")},
       {inverse_length_squared, words("moment4 summit_density Spd")},
-      {angle, words("Std lay_angle lay_angle_error")},
+      {angle, words("Std direction lay_angle lay_angle_error")},
       {inverse_length, words("Spc")},
       {pressure, words("pressure pressure_min pressure_max max_pressure reference_pressure")},
       {force, words("force max_force mean_force tangential_force")},

@@ -100,7 +100,7 @@ PLAIN = {
     "tabor_parameter", "threshold", "tolerance", "u", "weight",
 }  # fmt: skip
 WITHOUT_UNIT = {
-    "coefficient", "standard_deviation", "state", "table", "terms", "value",
+    "coefficient", "direction", "standard_deviation", "state", "table", "terms", "value",
 }  # fmt: skip
 
 
