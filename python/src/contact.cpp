@@ -125,13 +125,13 @@ the period of the surface do not exist: a layer much thicker than the period is 
           "stiffnesses in Pa.")
       .def_static(
           "tabulated",
-          [](std::vector<double> wave_number, std::vector<double> normal,
+          [](std::vector<double> wavenumber, std::vector<double> normal,
              std::vector<double> in_plane, std::vector<double> across, double uniform_normal,
              double uniform_tangential) {
-            return Body::tabulated({std::move(wave_number), std::move(normal), std::move(in_plane),
+            return Body::tabulated({std::move(wavenumber), std::move(normal), std::move(in_plane),
                                     std::move(across), uniform_normal, uniform_tangential});
           },
-          nb::arg("wave_number"), nb::arg("normal"), nb::arg("in_plane") = std::vector<double>(),
+          nb::arg("wavenumber"), nb::arg("normal"), nb::arg("in_plane") = std::vector<double>(),
           nb::arg("across") = std::vector<double>(), nb::arg("uniform_normal") = infinite,
           nb::arg("uniform_tangential") = infinite,
           "A response given at wave numbers, m/Pa; ln C is a cubic of ln q between them. The "
@@ -149,8 +149,8 @@ the period of the surface do not exist: a layer much thicker than the period is 
           "'mean_plane' or 'base': what displacements are measured from.")
       .def(
           "compliance",
-          [](const Body& self, double wave_number) {
-            const SurfaceCompliance c = self.compliance(wave_number);
+          [](const Body& self, double wavenumber) {
+            const SurfaceCompliance c = self.compliance(wavenumber);
             nb::typed<nb::dict, nb::str, double> found;
             found["normal"] = c.normal;
             found["in_plane"] = c.in_plane;
@@ -158,7 +158,7 @@ the period of the surface do not exist: a layer much thicker than the period is 
             found["coupling"] = c.coupling;
             return found;
           },
-          nb::arg("wave_number"),
+          nb::arg("wavenumber"),
           "Displacements per unit load of a wave, m/Pa: normal, in_plane (along the wave vector), "
           "across (perpendicular to it) and their coupling; NaN if unknown.");
 }

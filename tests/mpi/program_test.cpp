@@ -157,9 +157,8 @@ TEST_CASE("Statistics of a surface over processes have the numbers of one proces
   nlohmann::json expected = alone.json();
   REQUIRE(expected["psd"]["modes"].size() > 8);
   // What needs the surface whole.
-  for (const char* table :
-       {"correlation", "correlation_x", "correlation_y", "bearing", "histogram", "profiles_x",
-        "profiles_y"})
+  for (const char* table : {"correlation", "correlation_x", "correlation_y", "bearing", "histogram",
+                            "profiles_x", "profiles_y"})
     expected.erase(table);
   for (const char* name :
        {"Sal", "Str", "Str_max", "Std", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Spd", "Spc"})

@@ -291,8 +291,8 @@ def test_layers_graded_and_anisotropic_bodies_press_and_stick() -> None:
     zinc = salebra.contact.Body.transversely_isotropic(161e9, 61e9, 50e9, 38.3e9, 63.4e9)
     for body in (pair, zinc):
         assert salebra.press(surface, body, pressure=1e6).converged
-    wave_number = np.geomspace(1e3, 1e9, 200)
-    table = salebra.contact.Body.tabulated(wave_number, [layer.compliance(q)["normal"] for q in wave_number])
+    wavenumber = np.geomspace(1e3, 1e9, 200)
+    table = salebra.contact.Body.tabulated(wavenumber, [layer.compliance(q)["normal"] for q in wavenumber])
     assert salebra.press(surface, table, pressure=3e6).mean_gap == pytest.approx(state.mean_gap, rel=1e-4)
     with pytest.raises(salebra.InvalidInput, match="boundary"):
         salebra.press(surface, layer, pressure=1e6, boundary="free")

@@ -95,12 +95,12 @@ def test_messages_name_arguments_of_python() -> None:
 # values of several units.
 PLAIN = {
     "across", "along", "area_fraction", "contact", "contact_area_fraction", "despike", "dundurs", "energy_factor", "exponent", "friction_coefficient",
-    "friction_numbers", "height_calibration", "hurst", "kurtosis", "level", "merge_tolerance", "modulus_ratio", "poisson", "precision", "pressure_over_modulus",
-    "relative_error", "rms_slope", "rms_slopes", "safety_factor", "scan_calibration", "shape", "skewness", "skewnesses", "steady_tolerance", "table_tolerance",
+    "friction_numbers", "height_calibration", "hurst", "kurtosis", "layers", "level", "merge_tolerance", "modulus_ratio", "poisson", "precision",
+    "pressure_over_modulus", "relative_error", "rms_slope", "rms_slopes", "safety_factor", "scan_calibration", "shape", "skewness", "skewnesses", "steady_tolerance", "table_tolerance",
     "tabor_parameter", "threshold", "tolerance", "u", "weight",
 }  # fmt: skip
 WITHOUT_UNIT = {
-    "coefficient", "direction", "standard_deviation", "state", "table", "terms", "value",
+    "coefficient", "direction", "in_plane", "normal", "uniform_normal", "uniform_tangential", "standard_deviation", "state", "table", "terms", "value",
 }  # fmt: skip
 
 

@@ -189,11 +189,11 @@ Body Body::transversely_isotropic(const TransverseStiffness& stiffness) {
 }
 
 Body Body::tabulated(const ComplianceTable& table) {
-  const std::vector<double>& q = table.wave_number;
-  require(q.size() >= 4, "wave_number", q.size(), "values given; give at least 4");
+  const std::vector<double>& q = table.wavenumber;
+  require(q.size() >= 4, "wavenumber", q.size(), "values given; give at least 4");
   for (std::size_t k = 0; k < q.size(); ++k) {
-    require_finite_positive(q[k], "wave_number");
-    require(k == 0 || q[k] > q[k - 1], "wave_number", q[k], "must increase");
+    require_finite_positive(q[k], "wavenumber");
+    require(k == 0 || q[k] > q[k - 1], "wavenumber", q[k], "must increase");
   }
   for (const auto& [values, name] : {std::pair(&table.normal, "normal"),
                                      {&table.in_plane, "in_plane"},
@@ -213,7 +213,7 @@ Body Body::tabulated(const ComplianceTable& table) {
   using Curve = detail::MonotoneHermite;
   const auto curve_of = [&](const std::vector<double>& values) {
     return values.empty() ? std::optional<Curve>()
-                          : Curve(logarithms(table.wave_number), logarithms(values));
+                          : Curve(logarithms(table.wavenumber), logarithms(values));
   };
   const auto value = [](const std::optional<Curve>& curve, double log_q) {
     return curve ? std::exp(curve->at(log_q).value) : unknown;
@@ -223,7 +223,7 @@ Body Body::tabulated(const ComplianceTable& table) {
                            last = q.back()](double wave) {
     // A solve asks for the waves of its grid in other units, with rounding.
     constexpr double rounding = 1e-12;
-    require(wave >= first * (1 - rounding) && wave <= last * (1 + rounding), "wave_number", wave,
+    require(wave >= first * (1 - rounding) && wave <= last * (1 + rounding), "wavenumber", wave,
             "is beyond the table of the body; let the table cover all waves of the grid");
     const double log_q = std::clamp(std::log(wave), normal->front(), normal->back());
     return SurfaceCompliance{value(normal, log_q), value(in_plane, log_q), value(across, log_q),
@@ -260,10 +260,10 @@ Body Body::measured_from(Datum datum) const {
 
 Datum Body::datum() const { return parts_->datum; }
 
-SurfaceCompliance Body::compliance(double wave_number) const {
-  require(wave_number >= 0 && std::isfinite(wave_number), "wave_number", wave_number,
+SurfaceCompliance Body::compliance(double wavenumber) const {
+  require(wavenumber >= 0 && std::isfinite(wavenumber), "wavenumber", wavenumber,
           "must be >= 0 and finite");
-  if (wave_number > 0) return parts_->response(wave_number);
+  if (wavenumber > 0) return parts_->response(wavenumber);
   return parts_->datum == Datum::base ? parts_->uniform : SurfaceCompliance{};
 }
 

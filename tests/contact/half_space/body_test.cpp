@@ -322,7 +322,7 @@ TEST_CASE("A table of a response reproduces powers, and layers to the fourth pow
     for (int k = 0; k < points; ++k) {
       const double q = 1e4 * std::pow(1e4, k / (points - 1.0));
       const SurfaceCompliance c = layer.compliance(q);
-      table.wave_number.push_back(q);
+      table.wavenumber.push_back(q);
       table.normal.push_back(c.normal);
       table.in_plane.push_back(c.in_plane);
       table.across.push_back(c.across);
@@ -339,13 +339,13 @@ TEST_CASE("A table of a response reproduces powers, and layers to the fourth pow
   };
   CHECK(error_of(801) < 1e-6);
   CHECK(std::log2(error_of(401) / error_of(801)) > 3);
-  ComplianceTable power{.wave_number = {1, 2, 5, 10}, .normal = {}};
-  for (const double q : power.wave_number) power.normal.push_back(3 * std::pow(q, -0.7));
+  ComplianceTable power{.wavenumber = {1, 2, 5, 10}, .normal = {}};
+  for (const double q : power.wavenumber) power.normal.push_back(3 * std::pow(q, -0.7));
   const Body normal_only = Body::tabulated(power);
   CHECK(normal_only.compliance(3).normal == Approx(3 * std::pow(3, -0.7)).epsilon(1e-14));
   CHECK_FALSE(normal_only.has_tangential_response());
   CHECK_THROWS_WITH(normal_only.compliance(11),
-                    Catch::Contains("wave_number") && Catch::Contains("beyond the table"));
+                    Catch::Contains("wavenumber") && Catch::Contains("beyond the table"));
 }
 
 TEST_CASE("Bad constants of a body are refused by name", "[body]") {
@@ -359,9 +359,9 @@ TEST_CASE("Bad constants of a body are refused by name", "[body]") {
   CHECK_THROWS_WITH(Body::graded({1e9, 1e-6, -0.1, 0.3}), Contains("exponent"));
   CHECK_THROWS_WITH(Body::transversely_isotropic({10, 10, 9, 3, 3}), Contains("c13"));
   CHECK_THROWS_WITH(Body::transversely_isotropic({10, 10, 3, 3, 11}), Contains("c66"));
-  CHECK_THROWS_WITH(Body::tabulated({.wave_number = {1, 2, 2, 3}, .normal = {1, 1, 1, 1}}),
-                    Contains("wave_number"));
-  CHECK_THROWS_WITH(Body::tabulated({.wave_number = {1, 2, 3, 4}, .normal = {1, 1, 1}}),
+  CHECK_THROWS_WITH(Body::tabulated({.wavenumber = {1, 2, 2, 3}, .normal = {1, 1, 1, 1}}),
+                    Contains("wavenumber"));
+  CHECK_THROWS_WITH(Body::tabulated({.wavenumber = {1, 2, 3, 4}, .normal = {1, 1, 1}}),
                     Contains("normal"));
   const Body half_space = Body::half_space({1e9, 0.3});
   CHECK_THROWS_WITH(half_space.measured_from(Datum::base), Contains("datum"));

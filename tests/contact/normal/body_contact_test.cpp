@@ -424,10 +424,10 @@ TEST_CASE("What a body cannot do is refused by name", "[body]") {
                     Contains("datum"));
   CHECK_THROWS_WITH(stick_stiffness(contact_set(state), grid, layer, {.boundary = Boundary::free}),
                     Contains("boundary"));
-  const Body table = Body::tabulated({.wave_number = {1e5, 1e6, 2e6, 3e6}, .normal = {4, 3, 2, 1}});
-  CHECK_THROWS_WITH(press(surface, table, at_pressure(1e-6)), Contains("wave_number"));
+  const Body table = Body::tabulated({.wavenumber = {1e5, 1e6, 2e6, 3e6}, .normal = {4, 3, 2, 1}});
+  CHECK_THROWS_WITH(press(surface, table, at_pressure(1e-6)), Contains("wavenumber"));
   const Body normal_only =
-      Body::tabulated({.wave_number = {1e5, 1e6, 2e6, 1e7}, .normal = {4, 3, 2, 1}});
+      Body::tabulated({.wavenumber = {1e5, 1e6, 2e6, 1e7}, .normal = {4, 3, 2, 1}});
   CHECK(press(surface, normal_only, at_pressure(1e-9)).converged());
   CHECK_THROWS_WITH(stick_stiffness(contact_set(state), grid, normal_only),
                     Contains("tangential response"));

@@ -61,8 +61,8 @@ struct TransverseStiffness {
 
 /// A response that the user gives at wave numbers q.
 struct ComplianceTable {
-  std::vector<double> wave_number = {};  ///< q > 0, increasing, at least 4, 1/m
-  std::vector<double> normal = {};       ///< C_n > 0 at each q, m/Pa
+  std::vector<double> wavenumber = {};  ///< q > 0, increasing, at least 4, 1/m
+  std::vector<double> normal = {};      ///< C_n > 0 at each q, m/Pa
   /// C_l and C_a > 0 at each q, m/Pa; both empty: unknown, which suffices for normal contact.
   std::vector<double> in_plane = {}, across = {};
   /// Displacement from the base per uniform pressure or traction, >= 0, m/Pa; infinite: no base.
@@ -132,7 +132,7 @@ class Body {
 
   /// Response at the wave number q >= 0, 1/m. At q = 0: zero from the mean plane, the uniform
   /// response from the base. Throws InvalidInput for a wave number beyond a table.
-  SurfaceCompliance compliance(double wave_number) const;
+  SurfaceCompliance compliance(double wavenumber) const;
   bool has_tangential_response() const;  ///< false if C_l and C_a are unknown
   /// The constants of homogeneous isotropic half-spaces; none for other bodies.
   const std::optional<Material>& half_space_material() const;
