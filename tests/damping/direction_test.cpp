@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <salebra/contact/sweep.hpp>
@@ -188,7 +187,7 @@ TEST_CASE("Transposing a surface exchanges its directions", "[direction]") {
   CHECK(losses[1][1].damping_constant > 1.03 * losses[0][1].damping_constant);
 }
 
-TEST_CASE("Two directions of one call are those of two calls, and cost less", "[direction]") {
+TEST_CASE("Two directions of one call are those of two calls", "[direction]") {
   const Surface surface = ground_surface(32, 4);
   const Material material = material_of(0.3);
   const std::vector<double> pressures{0.03 * slope * modulus, 0.05 * slope * modulus};
@@ -198,19 +197,8 @@ TEST_CASE("Two directions of one call are those of two calls, and cost less", "[
   const SurfaceDampingOptions options{
       .hold = Hold::force, .friction_coefficient = friction, .excursion = 1e-5};
   const auto curves = sweep_directions(surface, material, pressures, {pi / 2, 0}, {.stick = true});
-  const auto seconds = [](const auto& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  std::vector<std::vector<SurfaceDamping>> both;
-  std::vector<SurfaceDamping> along;
-  const double of_both =
-      seconds([&] { both = surface_damping(surface, material, motion, curves, options); });
-  const double of_one =
-      seconds([&] { along = surface_damping(surface, material, motion, curves[1], options); });
-  INFO("both directions over one: " << of_both / of_one);
-  CHECK(of_both < 2 * of_one);
+  const auto both = surface_damping(surface, material, motion, curves, options);
+  const auto along = surface_damping(surface, material, motion, curves[1], options);
   const auto across = surface_damping(surface, material, motion, curves[0], options);
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     REQUIRE(both[0][k].converged);
