@@ -110,10 +110,23 @@ std::vector<EnsembleMean> StudyResult::at_pressures(
 
 std::vector<EnsembleMean> StudyResult::curve(const NumberOf<ForceSample>& number,
                                              ContactModel model) const {
-  return at_pressures([&](const Realisation& r, std::size_t k) {
-    const auto& samples = r.of(model).curve.samples;
-    return k < samples.size() && samples[k].converged ? number(samples[k]) : ForceSample::unknown;
-  });
+  const auto times = [&](double sign) {
+    return at_pressures([&, sign](const Realisation& r, std::size_t k) {
+      const auto& samples = r.of(model).curve.samples;
+      return k < samples.size() && samples[k].converged ? sign * number(samples[k])
+                                                        : ForceSample::unknown;
+    });
+  };
+  std::vector<EnsembleMean> means = times(1);
+  // A separation may have either sign: the limits of positive ones are not kept positive, which
+  // those of the negated numbers are not.
+  ForceSample separated;
+  separated.separation = 1;
+  if (std::isnan(number(separated))) return means;
+  const std::vector<EnsembleMean> negated = times(-1);
+  for (std::size_t k = 0; k < means.size(); ++k)
+    if (means[k].mean > 0) means[k] = {-negated[k].mean, -negated[k].high, -negated[k].low};
+  return means;
 }
 
 std::vector<EnsembleMean> StudyResult::damping(const NumberOf<DampingPoint>& number,
