@@ -96,10 +96,10 @@ TEST_CASE("The memory of a study grows with its surfaces as their samples do", "
   const double few = written(300), many = written(600), more = written(900);
   INFO(few << ' ' << many << ' ' << more);
   // Per surface: the Realisation itself, 0.8 kB; three models of 0.4 kB, and for each of four loads
-  // 3 × 216 bytes of samples and 140 of patches: 5.2 kB. The file holds 4 kB of this, and goes to
+  // 3 × 224 bytes of samples and 140 of patches: 5.4 kB, and up to 2 kB of the heap. The file holds 4 kB of this, and goes to
   // the disk while it is made. The bootstrap's table took 4000 bytes for each surface and each
   // smaller number of surfaces, 3 MB for each of the last 300.
-  CHECK((more - few) / 600 < 7e3);
+  CHECK((more - few) / 600 < 8.5e3);
   // Linear: the second 300 take as much as the first, up to two megabytes of the heap.
   CHECK(more - many < many - few + 2e6);
 }
