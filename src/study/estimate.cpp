@@ -79,11 +79,12 @@ EnsembleMean student_of_mean(const std::vector<double>& kept) {
   return student(kept, std::sqrt(double(kept.size())));
 }
 
-/// Replaces limits that reach 0 although all values are positive, mean − a … mean + b, by those of
-/// the logarithm, mean exp(−a/mean) … mean exp(b/mean).
-EnsembleMean kept_positive(EnsembleMean estimate, const std::vector<double>& kept) {
+/// Replaces limits of a positive quantity that reach 0 although all values are positive, mean − a …
+/// mean + b, by those of the logarithm, mean exp(−a/mean) … mean exp(b/mean).
+EnsembleMean kept_positive(EnsembleMean estimate, const std::vector<double>& kept, Sign sign) {
   const double mean = estimate.mean;
-  if (!(estimate.low <= 0) || !std::ranges::all_of(kept, [](double value) { return value > 0; }))
+  if (sign == Sign::either || !(estimate.low <= 0) ||
+      !std::ranges::all_of(kept, [](double value) { return value > 0; }))
     return estimate;
   return {mean, mean * std::exp(estimate.low / mean - 1),
           mean * std::exp(estimate.high / mean - 1)};
@@ -91,9 +92,9 @@ EnsembleMean kept_positive(EnsembleMean estimate, const std::vector<double>& kep
 
 }  // namespace
 
-EnsembleMean student_mean(const std::vector<double>& values) {
+EnsembleMean student_mean(const std::vector<double>& values, Sign sign) {
   const std::vector<double> kept = known(values);
-  return kept_positive(student_of_mean(kept), kept);
+  return kept_positive(student_of_mean(kept), kept, sign);
 }
 
 EnsembleMean prediction(const std::vector<double>& values) {
@@ -112,9 +113,9 @@ Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples),
           "is too few for a quantile of 2.5 %; use at least 200");
 }
 
-EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
+EnsembleMean Bootstrap::mean(const std::vector<double>& values, Sign sign) const {
   const std::vector<double> kept = known(values);
-  if (kept.size() < std::size_t(min_bootstrap_count)) return student_mean(kept);
+  if (kept.size() < std::size_t(min_bootstrap_count)) return student_mean(kept, sign);
   const Moments sample = moments_of(kept);
   EnsembleMean estimate{sample.mean, sample.mean, sample.mean};
   // If all values are equal up to round-off, every resample has the same mean.
@@ -143,7 +144,7 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   };
   estimate.low = sample.mean - arm(quantile(statistics, 0.975));
   estimate.high = sample.mean + arm(-quantile(statistics, 0.025));
-  return kept_positive(estimate, kept);
+  return kept_positive(estimate, kept, sign);
 }
 
 }  // namespace salebra

@@ -7,11 +7,15 @@
 
 namespace salebra {
 
+/// Which values a quantity can have. Its interval is kept above 0 only if it cannot be negative:
+/// values of either sign may all be positive by chance.
+enum class Sign { positive, either };
+
 /// Mean and 95 % Student-t interval of the mean, over the values that are not NaN. Fewer than two
-/// values give no limits (NaN). If all values are > 0, but the interval mean ± a reaches 0, the limits
-/// are those of the logarithm, mean exp(±a/mean). Of intervals of three log-normal values (σ = 1),
+/// values give no limits (NaN). If all values of a positive quantity are > 0, but the interval mean ± a
+/// reaches 0, the limits are those of the logarithm, mean exp(±a/mean). Of intervals of three log-normal values (σ = 1),
 /// 90 % then contain the mean, without this rule 84 %. The rule also holds for Bootstrap.
-EnsembleMean student_mean(const std::vector<double>& values);
+EnsembleMean student_mean(const std::vector<double>& values, Sign sign = Sign::positive);
 
 /// Mean, and the 95 % Student-t prediction interval for one more value of the same kind. If all
 /// values are > 0 it is
@@ -48,7 +52,7 @@ class Bootstrap {
 
   /// Mean and interval of the values that are not NaN. Time: proportional to resamples × values;
   /// memory: 12 bytes per value and thread.
-  EnsembleMean mean(const std::vector<double>& values) const;
+  EnsembleMean mean(const std::vector<double>& values, Sign sign = Sign::positive) const;
 
  private:
   int resamples_;

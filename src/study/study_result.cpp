@@ -20,8 +20,15 @@ namespace salebra {
 
 namespace {
 
-EnsembleMean estimate(const StudyConfiguration& configuration, const std::vector<double>& values) {
-  return configuration.of_twin() ? prediction(values) : Bootstrap().mean(values);
+EnsembleMean estimate(const StudyConfiguration& configuration, const std::vector<double>& values,
+                      Sign sign) {
+  return configuration.of_twin() ? prediction(values) : Bootstrap().mean(values, sign);
+}
+
+EnsembleMean mean_of(const StudyResult& result, const NumberOf<Realisation>& number, Sign sign) {
+  std::vector<double> values;
+  for (const Realisation& realisation : result.realisations) values.push_back(number(realisation));
+  return estimate(result.configuration, values, sign);
 }
 
 /// A number that follows from a loss, with the error that belongs to it. If `constant` is set it is
@@ -67,9 +74,8 @@ std::vector<StudyResult> StudyResult::in_directions() const {
 }
 
 EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {
-  std::vector<double> values;
-  for (const Realisation& realisation : realisations) values.push_back(number(realisation));
-  return estimate(configuration, values);
+  // Some numbers of a surface, such as its skewness, have either sign.
+  return mean_of(*this, number, Sign::either);
 }
 
 EnsembleMean StudyResult::mean(const NumberOf<ModelResult>& number, ContactModel model) const {
@@ -77,17 +83,22 @@ EnsembleMean StudyResult::mean(const NumberOf<ModelResult>& number, ContactModel
 }
 
 EnsembleMean StudyResult::decay_length(ContactModel model) const {
-  return mean([](const ModelResult& m) { return m.fit.decay_length; }, model);
+  return fitted("decay_length", model);
 }
 
 EnsembleMean StudyResult::decay_length_over_rms_height(ContactModel model) const {
-  return mean(
-      [&](const Realisation& r) { return r.of(model).fit.decay_length / r.heights.rms_height; });
+  return mean_of(
+      *this,
+      [&](const Realisation& r) { return r.of(model).fit.decay_length / r.heights.rms_height; },
+      Sign::positive);
 }
 
 EnsembleMean StudyResult::fitted(std::string_view column, ContactModel model) const {
   if (column == "decay_length_over_rms_height") return decay_length_over_rms_height(model);
-  return mean(number_of<ModelResult>(column, "column"), model);
+  const NumberOf<ModelResult> number = number_of<ModelResult>(column, "column");
+  return mean_of(
+      *this, [&](const Realisation& r) { return number(r.of(model)); },
+      column == "law_bend" ? Sign::either : Sign::positive);
 }
 
 std::optional<LawDescription> StudyResult::law_description(ContactModel model) const {
@@ -104,28 +115,27 @@ std::vector<EnsembleMean> StudyResult::at_pressures(
     const std::function<double(const Realisation&, std::size_t)>& number) const {
   std::vector<EnsembleMean> means;
   for (std::size_t k = 0; k < pressures.size(); ++k)
-    means.push_back(mean([&](const Realisation& r) { return number(r, k); }));
+    means.push_back(
+        mean_of(*this, [&](const Realisation& r) { return number(r, k); }, Sign::positive));
   return means;
 }
 
 std::vector<EnsembleMean> StudyResult::curve(const NumberOf<ForceSample>& number,
                                              ContactModel model) const {
-  const auto times = [&](double sign) {
-    return at_pressures([&, sign](const Realisation& r, std::size_t k) {
-      const auto& samples = r.of(model).curve.samples;
-      return k < samples.size() && samples[k].converged ? sign * number(samples[k])
-                                                        : ForceSample::unknown;
-    });
-  };
-  std::vector<EnsembleMean> means = times(1);
-  // A separation may have either sign: the limits of positive ones are not kept positive, which
-  // those of the negated numbers are not.
+  // Of all numbers of a sample only a separation may have either sign.
   ForceSample separated;
   separated.separation = 1;
-  if (std::isnan(number(separated))) return means;
-  const std::vector<EnsembleMean> negated = times(-1);
-  for (std::size_t k = 0; k < means.size(); ++k)
-    if (means[k].mean > 0) means[k] = {-negated[k].mean, -negated[k].high, -negated[k].low};
+  const Sign sign = std::isnan(number(separated)) ? Sign::positive : Sign::either;
+  std::vector<EnsembleMean> means;
+  for (std::size_t k = 0; k < pressures.size(); ++k)
+    means.push_back(mean_of(
+        *this,
+        [&](const Realisation& r) {
+          const auto& samples = r.of(model).curve.samples;
+          return k < samples.size() && samples[k].converged ? number(samples[k])
+                                                            : ForceSample::unknown;
+        },
+        sign));
   return means;
 }
 
@@ -318,7 +328,8 @@ std::vector<EnsembleMean> StudyResult::convergence() const {
   std::vector<EnsembleMean> estimates;
   for (const std::size_t count : convergence_counts())
     estimates.push_back(estimate(
-        configuration, {ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
+        configuration, {ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)},
+        Sign::positive));
   return estimates;
 }
 

@@ -89,11 +89,9 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
                                       : ""));
 }
 
-/// The lay of the surfaces of a study. That of a recipe is known, so no surface has a lay by chance.
-SurfaceLay lay_of(const StudyConfiguration& configuration, const Surface& surface) {
-  const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
-  if (recipe == nullptr) return surface_lay(surface);
-  const Anisotropy& stretch = recipe->textures.front().lay;
+/// The lay that a recipe asks for.
+SurfaceLay lay_of(const SurfaceTexture& texture) {
+  const Anisotropy& stretch = texture.lay;
   SurfaceLay lay;
   const double peklenik = stretch.peklenik();
   lay.ratio = lay.ratio_low = lay.ratio_high = std::max(peklenik, 1 / peklenik);
@@ -103,8 +101,14 @@ SurfaceLay lay_of(const StudyConfiguration& configuration, const Surface& surfac
   return lay;
 }
 
+/// The lay of the surfaces of a study. That of a recipe is known, so no surface has a lay by chance.
+SurfaceLay lay_of(const StudyConfiguration& configuration, const Surface& surface) {
+  const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  return recipe ? lay_of(recipe->textures.front()) : surface_lay(surface);
+}
+
 /// Warns of a lay and of skew heights, on which the results of these models depend.
-void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration,
+void warn_of_lay(const SurfaceLay& lay, double skewness, const StudyConfiguration& configuration,
                  StudyLoads& loads) {
   const bool theories = std::ranges::any_of(
       configuration.models, [](ContactModel model) { return model != ContactModel::bem; });
@@ -119,7 +123,7 @@ void warn_of_lay(const Surface& surface, const StudyConfiguration& configuration
                              : ". The models other than boundary elements do too";
   std::ranges::move(
       warnings_of_lay(
-          lay_of(configuration, surface), significant_skewness(surface), by_lay,
+          lay, skewness, by_lay,
           theories ? "the models other than boundary elements assume Gaussian heights" : ""),
       std::back_inserter(loads.warnings));
 }
@@ -152,17 +156,14 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
     warning = warning_of_slope(slope);
     grid = recipe->grid;
-    // An isotropic recipe needs no look at a surface, which might have a lay by chance.
-    if (const SurfaceTexture& texture = recipe->textures.front();
-        !texture.gaussian() || texture.lay.peklenik() != 1)
-      warn_of_lay(study_surface(configuration, recipe->seeds.front(), {}, communicator),
-                  configuration, loads);
+    const SurfaceTexture& texture = recipe->textures.front();
+    warn_of_lay(lay_of(texture), texture.skewness, configuration, loads);
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
     const Surface surface = measured_surface(measured, communicator, &loads.warnings);
     slope = surface_moments(surface).rms_slope();
     grid = surface.grid;
-    warn_of_lay(surface, configuration, loads);
+    warn_of_lay(surface_lay(surface), significant_skewness(surface), configuration, loads);
   }
   const double modulus = configuration.material.contact_modulus;
   const bool adhesive = configuration.adhesion.has_value();
