@@ -187,8 +187,7 @@ void run(const ExportArguments& arguments, Session& session) {
   if (std::abs(answer.loss_error) > max_error)
     session.warn(
         fmt::format("from {:g} of the force at which all slips on, the loss is off by up to {:.3g} "
-                    "%; give more "
-                    "--sliders or a larger --min-force",
+                    "%; give more --sliders or a larger --min-force",
                     problem.min_force, 100 * answer.loss_error));
   if (problem.format == DeckFormat::fmu && answer.platform.empty())
     session.warn(

@@ -120,6 +120,11 @@ std::vector<ContactProblem> contacts_of(const JointArguments& arguments, Session
     const RoughnessLaw law = arguments.law.law_of_sides(arguments.material);
     const auto middle = std::get<ExponentialContact>(contacts.front());
     const double ratio = middle.modulus_ratio, along = ratio / (2 - ratio);
+    // Between two bodies with Poisson's ratios of −1 … ½, G*/E* is from 2/3 to 4/3.
+    constexpr double rounding = 1e-9;
+    require(ratio > 2.0 / 3 - rounding && ratio < 4.0 / 3 + rounding, "--tangential-modulus", ratio,
+            "of E* is outside 2/3 to 4/3, so that the effect of a lay is not known; give --law "
+            "exponential");
     for (const auto& [length, lay] : {std::pair{law.decay_length_low, std::max(along, 1.0)},
                                       {law.decay_length_high, std::min(along, 1.0)}}) {
       contacts.emplace_back(ExponentialContact{length, lay, middle.normal_force});
@@ -266,13 +271,24 @@ class Limits {
   bool extremes_;
 };
 
+/// The losses as the table has them, of which pictures are made.
+void take_numbers(std::vector<JointLoss>& losses, const ResultTable& table) {
+  for (const auto& [name, member] : {std::pair{"tangential_force", &JointLoss::tangential_force},
+                                     {"tangential_amplitude", &JointLoss::tangential_amplitude},
+                                     {"work_per_cycle", &JointLoss::work_per_cycle}})
+    if (const auto column = std::ranges::find(table.columns, name, &ResultColumn::name);
+        column != table.columns.end())
+      for (std::size_t row = 0; row < losses.size(); ++row)
+        losses[row].*member = column->values[row];
+}
+
 void run(const JointArguments& arguments, Session& session) {
   const bool direct = arguments.direct_steps.has_value();
   require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
                                  : std::vector<std::string>{"motions"});
   check(arguments);
-  const std::vector<JointSolution> solutions = solve_all(arguments, session);
-  const JointSolution& found = solutions.front();
+  std::vector<JointSolution> solutions = solve_all(arguments, session);
+  JointSolution& found = solutions.front();
   std::set<std::string> said;
   for (const JointSolution& one : solutions)
     for (const std::string& warning : one.contact.warnings)
@@ -300,6 +316,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (direct)
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
+  take_numbers(found.losses, tables.front());
   if (session.has_plot())
     session.plot(joint_figure(found.losses, loop_of(arguments, found, session)));
   add_first_loading(answer, found.contact.first_loading);

@@ -20,6 +20,7 @@
 
 #include "base/printable.hpp"
 #include "neighbour_rows.hpp"
+#include "significance.hpp"
 
 namespace salebra {
 namespace {
@@ -30,10 +31,7 @@ constexpr double least_ratio = 1.5;    ///< of a lay
 constexpr double most_skewness = 0.5;  ///< of heights that count as Gaussian
 constexpr double cells_of_wave = 4;    ///< shortest wave, in cells of the coarser axis
 constexpr Index least_points = 16;     ///< along each axis
-/// 99 % of the lengths of a vector of two normal variables of unit variance are below this,
-/// √(−2 ln 0.01).
-constexpr double significant_length = 3.035;
-constexpr double two_sided = 1.96;  ///< 95 % limits of a normal variable, in standard deviations
+constexpr double two_sided = 1.96;     ///< 95 % limits of a normal variable, in standard deviations
 
 /// Weighted sums over the modes with |q| up to a limit: of the power p, and of q_x²p, q_y²p and
 /// q_x q_y p.
@@ -230,7 +228,7 @@ SurfaceLay surface_lay(const Surface& surface) {
       difference /
       std::sqrt((variances[of_steep] + variances[of_flat] + 2 * variances[of_both]) / 2);
   const Scatter parts = scatter_of_parts(surface, across);
-  lay.significant = std::min(by_modes, parts.significance) > significant_length;
+  lay.significant = std::min(by_modes, parts.significance) > detail::significant_length;
 
   const double square = std::max(flat, 0.0) / steep;
   lay.rms_slope_across = slope / std::sqrt(1 + square);

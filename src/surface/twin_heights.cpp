@@ -10,6 +10,7 @@
 
 #include "base/fft.hpp"
 #include "base/random.hpp"
+#include "surface/significance.hpp"
 #include "surface/twin_model.hpp"
 
 namespace salebra::twin_detail {
@@ -21,7 +22,6 @@ constexpr Index cells = 48;            ///< of a patch, along each side
 constexpr Index patches_per_side = 4;  ///< of the periodic box from which they are cut
 constexpr int boxes = 16;
 constexpr Index resamples = 1000;
-constexpr double significant_length = 3.035;  ///< √(−2 ln 0.01)
 constexpr double least_share = 0.5;  ///< of the side of the largest scan, of a group that is used
 
 /// Means of the third and fourth powers of levelled heights over those powers of their rms.
@@ -335,7 +335,7 @@ FoundHeights heights_of(const std::vector<ScanSpectrum>& scans, const std::vecto
     return std::hypot((seen.third - at.mean.third) / std::sqrt(third),
                       (seen.fourth - at.mean.fourth) / std::sqrt(fourth));
   };
-  found.gaussian = far() < significant_length;
+  found.gaussian = far() < detail::significant_length;
   Slopes slopes = slopes_at(groups, found.best, at.mean, seed);
   // Newton's steps, with the slopes of the last one for the errors.
   for (int step = 0; step < 8; ++step) {

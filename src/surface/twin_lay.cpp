@@ -14,6 +14,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 
+#include "surface/significance.hpp"
 #include "surface/twin_model.hpp"
 
 namespace salebra::twin_detail {
@@ -36,7 +37,6 @@ double Lay::log_blur_slope(double v, double u_square) const {
 
 namespace {
 
-constexpr double significant_vector = 3.035;  ///< √(−2 ln 0.01), as in surface_lay()
 constexpr double two_sided = 1.96;
 constexpr double least_log_stretch = 0.03;  ///< smaller ones are errors of instruments
 constexpr double of_nyquist = 0.6;  ///< beyond this part of the Nyquist mode, sampling folds power
@@ -206,10 +206,11 @@ class LaySearch {
                                      at_end = estimates(ellipse, maps_);
     const Lay lay = ellipse.lay();
     const Estimate none = sum_of(at_none), end = sum_of(at_end);
-    const bool directed = none.length() > significant_vector * none.error() * scatter(at_none);
+    const bool directed =
+        none.length() > detail::significant_length * none.error() * scatter(at_none);
     const double error = end.error() * scatter(at_end), log_stretch = std::log(lay.stretch);
-    const bool significant =
-        directed && log_stretch > significant_vector * error && log_stretch > least_log_stretch;
+    const bool significant = directed && log_stretch > detail::significant_length * error &&
+                             log_stretch > least_log_stretch;
     refuse_differing_scans(at_end);
     refuse_other_spectra(significant ? ellipse : Ellipse{});
     // Without a solution, the rings of a stronger lay are beyond the grids or the cut-off.

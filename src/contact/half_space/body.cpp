@@ -11,6 +11,7 @@
 
 #include "base/numerics/hermite.hpp"
 #include "base/special_values.hpp"
+#include "poisson.hpp"
 
 namespace salebra {
 namespace {
@@ -18,10 +19,6 @@ namespace {
 using detail::infinity;
 using detail::unknown;
 using std::numbers::pi;
-
-void require_poisson_of_layer(double poisson) {
-  require(poisson > -1 && poisson <= 0.5, "poisson", poisson, "must satisfy -1 < poisson <= 0.5");
-}
 
 void require_finite_positive(double value, const char* name) {
   require(value > 0 && std::isfinite(value), name, value, "must be > 0 and finite");
@@ -97,7 +94,7 @@ void validate(const GradedHalfSpace& half_space) {
   require_finite_positive(half_space.depth, "depth");
   require(half_space.exponent >= 0 && half_space.exponent < 1, "exponent", half_space.exponent,
           "must satisfy 0 <= exponent < 1");
-  require_poisson_of_layer(half_space.poisson);
+  detail::require_poisson(half_space.poisson);
 }
 
 }  // namespace
@@ -124,13 +121,13 @@ Body Body::half_space(const ElasticBody& first, const ElasticBody& second) {
 Body Body::layered(const std::vector<ElasticLayer>& layers, const ElasticBody& base) {
   require_that(!layers.empty(), "layers", "not given; give at least one");
   require(base.young > 0, "young", base.young, "must be > 0 (infinity: rigid)");
-  require_poisson_of_layer(base.poisson);
+  detail::require_poisson(base.poisson);
   const bool rigid = std::isinf(base.young);
   SurfaceCompliance uniform;
   for (const ElasticLayer& layer : layers) {
     require_finite_positive(layer.thickness, "thickness");
     require_finite_positive(layer.young, "young");
-    require_poisson_of_layer(layer.poisson);
+    detail::require_poisson(layer.poisson);
     const double per_shear = layer.thickness / ElasticBody{layer.young, layer.poisson}.shear();
     const SurfaceCompliance part{(1 - 2 * layer.poisson) / (2 * (1 - layer.poisson)) * per_shear,
                                  per_shear, per_shear, 0};

@@ -286,6 +286,34 @@ Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus
       grid, detail::normal_symbol(grid, contact_modulus, boundary, rows), rows);
 }
 
+namespace {
+
+/// Sets the symbols of a tangential response. along(component, length): of a traction along an axis,
+/// of which the wave vector has this component. mixed(q): of x by a traction along y.
+template <class Real, class Along, class Mixed>
+void set_tangential_symbols(Convolution2D<Real>& compliance, const Grid2D& grid, const Along& along,
+                            const Mixed& mixed) {
+  compliance.set_symbol(0, 0, [=](Index i, Index j) {
+    const WaveVector q(grid, i, j);
+    return along(q.x, q.length);
+  });
+  compliance.set_symbol(1, 1, [=](Index i, Index j) {
+    const WaveVector q(grid, i, j);
+    return along(q.y, q.length);
+  });
+  compliance.set_symbol(
+      0, 1,
+      [=](Index i, Index j) {
+        const WaveVector q(grid, i, j);
+        // A Fourier mode at the Nyquist frequency of x or y is its own mirror image, so an odd
+        // symbol is 0 there.
+        return 2 * i == grid.nx || 2 * j == grid.ny || q.length == 0 ? 0.0 : mixed(q);
+      },
+      Parity::odd);
+}
+
+}  // namespace
+
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
                                           Boundary boundary, const Communicator& communicator) {
@@ -304,24 +332,9 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
                                (isotropic + directed -
                                 directed * component * component / (length * length));
     };
-    compliance.set_symbol(0, 0, [=](Index i, Index j) {
-      const WaveVector q(grid, i, j);
-      return along(q.x, q.length);
+    set_tangential_symbols(compliance, grid, along, [=](const WaveVector& q) {
+      return -2 * pi * directed * q.x * q.y / (q.length * q.length * q.length);
     });
-    compliance.set_symbol(1, 1, [=](Index i, Index j) {
-      const WaveVector q(grid, i, j);
-      return along(q.y, q.length);
-    });
-    compliance.set_symbol(
-        0, 1,
-        [=](Index i, Index j) {
-          const WaveVector q(grid, i, j);
-          // A Fourier mode at the Nyquist frequency of x or y is its own mirror image, so an odd
-          // symbol is 0 there.
-          if (2 * i == grid.nx || 2 * j == grid.ny || q.length == 0) return 0.0;
-          return -2 * pi * directed * q.x * q.y / (q.length * q.length * q.length);
-        },
-        Parity::odd);
   } else {
     const auto set = [&](int a, int b, Parity parity, auto value) {
       compliance.set_symbol(
@@ -357,24 +370,10 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Body& body,
                ? c.in_plane
                : c.across + (c.in_plane - c.across) * component * component / (length * length);
   };
-  compliance.set_symbol(0, 0, [=](Index i, Index j) {
-    const WaveVector q(grid, i, j);
-    return along(q.x, q.length);
+  set_tangential_symbols(compliance, grid, along, [=](const WaveVector& q) {
+    const SurfaceCompliance c = body.compliance(q.length);
+    return (c.in_plane - c.across) * q.x * q.y / (q.length * q.length);
   });
-  compliance.set_symbol(1, 1, [=](Index i, Index j) {
-    const WaveVector q(grid, i, j);
-    return along(q.y, q.length);
-  });
-  compliance.set_symbol(
-      0, 1,
-      [=](Index i, Index j) {
-        const WaveVector q(grid, i, j);
-        // As for half-spaces, an odd symbol is 0 at the Nyquist frequencies.
-        if (2 * i == grid.nx || 2 * j == grid.ny || q.length == 0) return 0.0;
-        const SurfaceCompliance c = body.compliance(q.length);
-        return (c.in_plane - c.across) * q.x * q.y / (q.length * q.length);
-      },
-      Parity::odd);
   return compliance;
 }
 

@@ -9,15 +9,12 @@
 #include <salebra/contact/half_space/material.hpp>
 
 #include "base/special_values.hpp"
+#include "poisson.hpp"
 
 namespace salebra {
 namespace {
 
 using detail::unknown;
-
-void require_poisson(double poisson) {
-  require(poisson > -1 && poisson <= 0.5, "poisson", poisson, "must satisfy -1 < poisson <= 0.5");
-}
 
 }  // namespace
 
@@ -34,7 +31,7 @@ Material Material::of_bodies(const ElasticBody& first, const ElasticBody& second
   Material material;
   for (const ElasticBody& body : {first, second}) {
     require(body.young > 0, "young", body.young, "must be > 0 (infinity: rigid)");
-    require_poisson(body.poisson);
+    detail::require_poisson(body.poisson);
     normal_compliance += (1 - body.poisson * body.poisson) / body.young;
     tangential_compliance += (2 - body.poisson) / (4 * body.shear());
     material.cerruti_isotropic += (1 - body.poisson) / (2 * std::numbers::pi * body.shear());
@@ -48,7 +45,7 @@ Material Material::of_bodies(const ElasticBody& first, const ElasticBody& second
 
 Material Material::of_contact_modulus(double contact_modulus, double poisson) {
   require_positive(contact_modulus, "contact_modulus");
-  require_poisson(poisson);
+  detail::require_poisson(poisson);
   return of_bodies({.young = contact_modulus * (1 - poisson * poisson), .poisson = poisson});
 }
 
