@@ -103,6 +103,9 @@ TEST_CASE("An interval of positive values is positive", "[ensemble]") {
   const EnsembleMean resampled = Bootstrap().mean(skew);
   CHECK(resampled.low > 0);
   CHECK(resampled.low < resampled.mean);
+  // A quantity of either sign keeps Student's limits, whatever its values are.
+  CHECK(student_mean({1, 2}, Sign::either).low == Approx(1.5 - half).epsilon(1e-5));
+  CHECK(Bootstrap().mean(skew, Sign::either).low < resampled.low);
   // Values of both signs keep Student's limits.
   CHECK(student_mean({-1, 2}).low < 0);
 }

@@ -10,6 +10,7 @@
 
 #include "io/scratch.hpp"
 #include "small_study.hpp"
+#include "study/estimate.hpp"
 
 using namespace salebra;
 
@@ -256,8 +257,12 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
     std::vector<EnsembleMean> means;
     for (const Realisation& r : result.realisations)
       for (const SpotStatistics& load : r.spots) values.push_back(load.*of);
-    for (std::size_t k = 0; k < result.pressures.size(); ++k)
-      means.push_back(result.mean([&](const Realisation& r) { return r.spots[k].*of; }));
+    // Three surfaces have Student's interval, of numbers that cannot be negative.
+    for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+      std::vector<double> of_load;
+      for (const Realisation& r : result.realisations) of_load.push_back(r.spots[k].*of);
+      means.push_back(student_mean(of_load));
+    }
     file.values(std::string("spots/") + name, {"realisation", "pressure"}, values);
     file.interval(std::string("spots/ensemble_") + name, {"pressure"}, means);
   }
