@@ -125,9 +125,24 @@ FilteredSurface read_surface_of(const StatisticsArguments& arguments, Session& s
   return {std::move(rough), std::move(measured)};
 }
 
+/// The self-affine law of a surface: across and along its lay, if it has one, which the mean over
+/// all directions does not describe.
+struct FittedLaw {
+  SelfAffineFit mean;
+  std::optional<DirectionalSelfAffineFit> of_lay = {};
+
+  bool found() const { return of_lay ? of_lay->across.hurst.found() : mean.hurst.found(); }
+};
+
+void add_law(Json& answer, const SelfAffineFit& law) {
+  answer["hurst"] = to_json<IntervalEstimate>(law.hurst);
+  answer["rolloff"] = to_json(law.rolloff);
+  answer["short_cutoff"] = to_json(law.short_cutoff);
+}
+
 /// Grid, roughness and Hurst exponent: the part of the answer that is always printed.
 Json summary(const StatisticsArguments& arguments, const FilteredSurface& surfaces, Index undefined,
-             const SelfAffineFit& fit, const SurfaceLay& lay) {
+             const FittedLaw& fit, const SurfaceLay& lay) {
   const Surface& surface = surfaces.rough;
   const HeightStatistics heights = height_statistics(surface);
   Json answer = json_of(surface.grid);
@@ -137,9 +152,12 @@ Json summary(const StatisticsArguments& arguments, const FilteredSurface& surfac
   answer.add(json_of(heights));
   answer.add(json_of(undefined > 0 ? difference_moments(surface) : surface_moments(surface)));
   answer.add(json_of(lay));
-  answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
-  answer["rolloff"] = to_json(fit.rolloff);
-  answer["short_cutoff"] = to_json(fit.short_cutoff);
+  if (fit.of_lay) {
+    add_law(answer["across"], fit.of_lay->across);
+    add_law(answer["along"], fit.of_lay->along);
+  } else {
+    add_law(answer, fit.mean);
+  }
   answer["summits"] = json_of(summit_statistics(find_summits(surface)));
   answer["reliability"] = json_of(reliability(arguments, surfaces.unfiltered()));
   return answer;
@@ -200,23 +218,30 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
   double asymmetric = 0;
-  SelfAffineFit fit;
+  FittedLaw fit;
   SurfaceLay lay;
   if (undefined == 0 || arguments.surface.fill) {
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
-    std::optional<PowerSpectrum> unfiltered;
-    if (surfaces.measured)
-      unfiltered =
-          power_spectrum(undefined == 0 ? *surfaces.measured : filled(*surfaces.measured), window);
-    const PowerSpectrum& of_law = unfiltered ? *unfiltered : *spectrum;
-    asymmetric = of_law.asymmetric_wavelength;
+    lay = surface_lay(complete);
+    // A lay makes the law that of profiles, whose spectrum needs a window on every surface.
+    const Window of_law = lay.found() && complete.periodic ? Window::hann : window;
+    std::optional<PowerSpectrum> other;
+    if (surfaces.measured || of_law != window)
+      other = power_spectrum(!surfaces.measured ? complete
+                             : undefined == 0   ? *surfaces.measured
+                                                : filled(*surfaces.measured),
+                             of_law);
+    const PowerSpectrum& fitted = other ? *other : *spectrum;
+    asymmetric = fitted.asymmetric_wavelength;
     // Without a window, the spectrum of a surface that is not periodic contains the steps between
     // opposite edges, which would falsify the fit.
-    if (complete.periodic || spectrum->windowed)
-      fit = fit_self_affine(of_law, reliable_wavelength(arguments, surfaces.unfiltered()));
-    lay = surface_lay(complete);
+    const double reliable = reliable_wavelength(arguments, surfaces.unfiltered());
+    if (lay.found() && fitted.windowed)
+      fit.of_lay = fit_self_affine(fitted, lay, reliable);
+    else if (complete.periodic || fitted.windowed)
+      fit.mean = fit_self_affine(fitted, reliable);
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
   const Json answer = summary(arguments, surfaces, undefined, fit, lay);
@@ -224,7 +249,7 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   // Only surfaces with this many points in each direction get a note if no exponent was found.
   constexpr Index expected = 32;
   if (spectrum && std::min(surface.grid.nx, surface.grid.ny) >= expected) {
-    if (!fit.hurst.found())
+    if (!fit.found())
       session.inform(surface.periodic || spectrum->windowed ? no_hurst
                                                             : "no Hurst exponent without a window");
     note_asymmetry(arguments, asymmetric, session);
@@ -247,7 +272,8 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
     whole["differences"] = json_of(difference_moments(surface));
   }
   write_tables(session, "statistics", whole, tables);
-  if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
+  if (session.has_plot())
+    session.plot(surface_figure(surface, {std::move(spectrum), fit.mean.hurst}));
   if (!arguments.all) return session.answer(arguments.in_table ? whole : answer);
   std::string text = to_text(whole);
   for (const ResultTable& table : tables)
@@ -377,12 +403,14 @@ FileColumn lay_column() {
           .averaged = false};
 }
 
-/// A parameter of the fitted law with its 95 % limits, which are often wide: "0.73 (0.51 … 0.89)".
+/// A parameter of the fitted law with its 95 % limits, which are often wide: "0.73 (0.51 … 0.89)";
+/// across the lay if the surface has one.
 FileColumn fitted_column(const std::string& heading, const std::string& name) {
   return {.heading = heading,
           .name = "",
           .value = [name](const Json& answer, std::size_t) -> Json {
-            const Json whole = member(answer, name, 0);
+            const bool has_lay = member(answer, "across", 0).is_object();
+            const Json whole = member(answer, has_lay ? "across." + name : name, 0);
             const Dimension dimension = quantity_of(name).dimension;
             const auto text = [&](const Json& value) {
               return format_quantity(value.number(), dimension, 2);
@@ -430,6 +458,12 @@ FileTable table_of_files(const std::string& csv) {
     for (const char* limit : {"low", "high"})
       table.columns.push_back(
           column("", fmt::format("{}.{}", name, limit), fmt::format("{}_{}", name, limit)));
+    for (const char* direction : {"across", "along"})
+      for (const char* part : {"value", "low", "high"})
+        table.columns.push_back(column("", fmt::format("{}.{}.{}", direction, name, part),
+                                       std::string_view(part) == "value"
+                                           ? fmt::format("{}_{}", name, direction)
+                                           : fmt::format("{}_{}_{}", name, direction, part)));
   }
   return table;
 }

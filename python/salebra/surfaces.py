@@ -8,6 +8,7 @@ from ._core import (
     CoreParameters as CoreParameters,
     Correlation as Correlation,
     CorrelationMap as CorrelationMap,
+    DirectionalSelfAffineFit as DirectionalSelfAffineFit,
     Grid2D as Grid2D,
     HeightBand as HeightBand,
     HeightHistogram as HeightHistogram,

@@ -111,9 +111,16 @@ void bind_hurst(nb::module_& m) {
       "Rq, slope and the isotropic self-affine surface of a line profile: a surface of one row, as "
       ":func:`read_surface` with ``profiles=True`` returns it.");
   described_class<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.");
-  m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
-        nb::arg("shortest_wavelength") = 0,
+  described_class<DirectionalSelfAffineFit>(m, "DirectionalSelfAffineFit",
+                                            "The self-affine laws across and along a lay.");
+  m.def("fit_self_affine", nb::overload_cast<const PowerSpectrum&, double>(&fit_self_affine),
+        nb::arg("spectrum"), nb::arg("shortest_wavelength") = 0,
         "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");
+  m.def("fit_self_affine",
+        nb::overload_cast<const PowerSpectrum&, const SurfaceLay&, double>(&fit_self_affine),
+        nb::arg("spectrum"), nb::arg("lay"), nb::arg("shortest_wavelength") = 0,
+        "The same across and along a lay, that of :func:`surface_lay`. The :class:`PowerSpectrum` "
+        "needs a window.");
 }
 
 void bind_correlation(nb::module_& m) {

@@ -6,6 +6,7 @@
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/bearing.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
@@ -87,7 +88,9 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
 
   const PowerSpectrum spectrum = power_spectrum(surface);
   const RadialSpectrum rings = radial_spectrum(spectrum, 8);
-  const HurstEstimate hurst = estimate_hurst(spectrum);
+  // A surface with a lay has no law that is the same in all directions.
+  const HurstEstimate hurst =
+      surface_lay(surface).found() ? HurstEstimate{} : estimate_hurst(spectrum);
   picture.wavenumber = rings.wavenumber;
   picture.psd = rings.psd;
   picture.hurst = hurst.value;

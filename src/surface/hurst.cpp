@@ -15,7 +15,7 @@
 
 #include "base/numerics/dense_systems.hpp"
 #include "ring_means.hpp"
-#include "surface/power_law_range.hpp"
+#include "surface/windowed_fit.hpp"
 
 namespace salebra {
 namespace {
@@ -247,8 +247,8 @@ detail::SelfAffineDensity windowed_density(const Grid2D& grid) {
   };
 }
 
-/// Hurst exponent of a surface that is not periodic, whose spectrum has a window.
-HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
+/// Hurst exponent and roll-off of a surface that is not periodic, whose spectrum has a window.
+detail::WindowedFit of_windowed(const PowerSpectrum& spectrum, double highest) {
   const Grid2D& grid = spectrum.grid;
   // This number of rings resolves a power law to better than a hundredth.
   constexpr int rings_per_octave = 6;
@@ -283,12 +283,11 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   const auto [all] =
       modes.sums<1>([](std::span<double> sums, const Mode& mode) { sums[0] += 2 * mode.weight; });
   const auto [least, greatest] = modes.range();
-  HurstEstimate estimate{law.hurst, std::exp(least), std::exp(greatest), static_cast<Index>(all)};
-  return estimate;
+  return {{law.hurst, std::exp(least), std::exp(greatest), static_cast<Index>(all)}, law.rolloff()};
 }
 
 HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
-  if (spectrum.windowed) return of_windowed(spectrum, highest);
+  if (spectrum.windowed) return of_windowed(spectrum, highest).hurst;
   const RadialSpectrum radial = radial_spectrum(spectrum);
   if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return {};
   Range range = self_affine_range(spectrum, radial, highest);
@@ -347,6 +346,14 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
 }
 
 }  // namespace
+
+detail::WindowedFit detail::fit_windowed(const PowerSpectrum& spectrum,
+                                         double shortest_wavelength) {
+  if (shortest_wavelength == 0) shortest_wavelength = spectrum.asymmetric_wavelength;
+  WindowedFit fit = of_windowed(spectrum, 2 * pi / shortest_wavelength);
+  spectrum.communicator.broadcast(&fit, sizeof fit);
+  return fit;
+}
 
 HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength) {
   if (shortest_wavelength == 0) shortest_wavelength = spectrum.asymmetric_wavelength;

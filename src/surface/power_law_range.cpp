@@ -19,6 +19,7 @@ namespace salebra::detail {
 namespace {
 
 constexpr double min_hurst = -0.2, greatest_hurst = 1.5;
+constexpr double strongest_attenuation = 3;  ///< g q² at the end of a range
 
 /// The free parameters of a law: Hurst exponent, ln of the roll-off, attenuation, and floor.
 enum Parameter : std::size_t { hurst, rolloff, attenuation, floor_share, parameters };
@@ -46,6 +47,8 @@ class LawInRange {
 
   Numbers start(double value) const { return {value, least_[rolloff], 0.05, 0.05}; }
   double no_rolloff() const { return least_[rolloff]; }
+  double least(Parameter parameter) const { return least_[parameter]; }
+  double greatest(Parameter parameter) const { return greatest_[parameter]; }
   std::span<const SpectrumBin> bins() const { return bins_; }
 
   /// Minimises the deviance (−2 ln of the likelihood, up to a constant) from a start by Fisher
@@ -174,29 +177,39 @@ class LawInRange {
   Numbers least_{}, greatest_{};
 };
 
-/// The interval of the Hurst exponent in which the deviance exceeds its minimum by at most `limit`.
-IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& best, double limit) {
+/// The interval of a parameter in which the deviance exceeds its minimum by at most `limit`.
+IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& best, double limit,
+                             Parameter parameter) {
+  const double least = range.least(parameter), greatest = range.greatest(parameter);
+  Held held{};
+  held[parameter] = true;
   const auto end = [&](double direction) {
-    double inside = best.at[hurst], step = 0.03;
+    double inside = best.at[parameter], step = 0.03;
     LawInRange::Fit warm = best;
-    while (step > 2e-3 && inside > min_hurst && inside < greatest_hurst) {
+    while (step > 2e-3 && inside > least && inside < greatest) {
       Numbers from = warm.at;
-      from[hurst] = std::clamp(inside + direction * step, min_hurst, greatest_hurst);
-      const LawInRange::Fit tried = range.descend(from, {true, false, false, false});
+      from[parameter] = std::clamp(inside + direction * step, least, greatest);
+      const LawInRange::Fit tried = range.descend(from, held);
       if (tried.deviance - best.deviance > limit) {
         step /= 3;
         continue;
       }
-      inside = tried.at[hurst];
+      inside = tried.at[parameter];
       warm = tried;
       step *= 1.5;
     }
     return inside + direction * step;
   };
-  return {best.at[hurst], end(-1), end(1)};
+  return {best.at[parameter], end(-1), end(1)};
 }
 
 }  // namespace
+
+IntervalEstimate PowerLawRange::rolloff() const {
+  constexpr double turn = 2 * std::numbers::pi;
+  if (!rolloff_seen) return {};
+  return {turn / q_rolloff, turn / q_rolloff_high, turn / q_rolloff_low};
+}
 
 PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
                                   const SelfAffineDensity& density, double min_span) {
@@ -228,22 +241,33 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     const LawInRange::Fit best = range.fit(true);
     if (!acceptable(candidate.begin, candidate.end, best)) continue;
     if (best.at[hurst] <= min_hurst || best.at[hurst] >= greatest_hurst) continue;
-    const double limit = gsl_cdf_chisq_Pinv(0.95, 1);
-    PowerLawRange found{candidate.begin, candidate.end, interval_of(range, best, limit)};
+    // Where the bins scatter more than their independent powers do, the deviance is judged by its
+    // own scatter.
+    const double freedom = static_cast<double>(candidate.end - candidate.begin) - 4;
+    const double limit = gsl_cdf_chisq_Pinv(0.95, 1) * std::max(1.0, best.deviance / freedom);
+    PowerLawRange found{candidate.begin, candidate.end, interval_of(range, best, limit, hurst)};
     const LawInRange::Fit straight = range.fit(false);
     // If neither floor nor attenuation is significant, the law without floor and attenuation is the
     // better estimate.
     Numbers without = best.at;
     without[attenuation] = without[floor_share] = 0;
     const LawInRange::Fit plain = range.descend(without, {false, false, true, true});
-    const bool simple = plain.deviance - best.deviance < limit;
-    if (simple) {
+    found.pure = plain.deviance - best.deviance < limit;
+    // Where less than a twentieth of the power is left, the shape of the attenuation decides, and no
+    // instrument has exactly a Gaussian.
+    if (!found.pure && best.at[attenuation] > strongest_attenuation) continue;
+    if (found.pure) {
       found.hurst.value = plain.at[hurst];
       found.hurst.low = std::min(found.hurst.low, found.hurst.value);
       found.hurst.high = std::max(found.hurst.high, found.hurst.value);
     }
     found.rolloff_seen = straight.deviance - best.deviance > limit &&
                          best.at[rolloff] > std::log(bins[candidate.begin].wavenumber);
+    if (found.rolloff_seen) {
+      const IntervalEstimate logarithm = interval_of(range, best, limit, rolloff);
+      found.q_rolloff_low = std::exp(logarithm.low);
+      found.q_rolloff_high = std::exp(logarithm.high);
+    }
     // Repeat the fit without the shortest half octave, where errors of instruments appear: the
     // difference shows the effect of the choice of the range.
     const double shorter = bins[candidate.end - 1].wavenumber / std::numbers::sqrt2;
@@ -254,8 +278,9 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
                              .at[hurst];
     found.hurst.low = std::min(found.hurst.low, other);
     found.hurst.high = std::max(found.hurst.high, other);
-    // An interval of the Hurst exponent that covers 0 … 1 excludes nothing.
-    if (found.hurst.low <= 0 && found.hurst.high >= 1) return {};
+    // An interval of the Hurst exponent that covers 0 … 1 excludes nothing, and an exponent below 0
+    // means no law.
+    if ((found.hurst.low <= 0 && found.hurst.high >= 1) || found.hurst.value < 0) return {};
     if (best.at[rolloff] > range.no_rolloff()) found.q_rolloff = std::exp(best.at[rolloff]);
     found.amplitude = best.amplitude /
                       density(bins[candidate.end - 1].wavenumber, best.at[hurst], found.q_rolloff);

@@ -24,10 +24,13 @@ using SelfAffineDensity = std::function<double(double q, double hurst, double q_
 struct PowerLawRange {
   std::size_t begin = 0, end = 0;  ///< numbers of the bins; begin == end if no range was found
   IntervalEstimate hurst;
-  double q_rolloff = 0;       ///< rad/m; 0 without a plateau
+  double q_rolloff = 0;                          ///< rad/m; 0 without a plateau
+  double q_rolloff_low = 0, q_rolloff_high = 0;  ///< 95 % limits of q_rolloff, rad/m, if it is seen
   bool rolloff_seen = false;  ///< a likelihood-ratio test at 5 % rejects the law without a plateau
   double amplitude = 0;       ///< factor A of the density
+  bool pure = false;          ///< neither floor nor attenuation is significant
   bool found() const { return end > begin; }
+  IntervalEstimate rolloff() const;  ///< wavelength, m; NaN unless the roll-off is seen
 };
 
 /// Finds the longest range of bins in which the mean power E follows the law

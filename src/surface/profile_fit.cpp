@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <ranges>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
@@ -16,7 +17,7 @@
 
 #include "base/quiet_gsl.hpp"
 #include "surface/asymmetry.hpp"
-#include "surface/power_law_range.hpp"
+#include "surface/profile_law.hpp"
 
 namespace salebra {
 namespace {
@@ -43,38 +44,40 @@ double cosine_integral(double power, double from, double to) {
   return sum;
 }
 
-constexpr double endless = 1e300;
+constexpr double endless = detail::ProfileLaw::endless;
 
-/// Power spectral density of profiles under Hann's window, which mixes each wave with its two
-/// neighbours in the ratio 1 : 4 : 1.
-/// step  distance between two neighbouring waves, rad/m
-detail::SelfAffineDensity windowed_density(double step, double q_short) {
-  return [=](double q, double hurst, double q_rolloff) {
+/// Power spectral density of profiles under a window.
+detail::SelfAffineDensity windowed_density(const detail::WaveMixing& mixing, double q_short) {
+  const double reach = std::ranges::max(mixing | std::views::keys);
+  return [&mixing, reach, q_short](double q, double hurst, double q_rolloff) {
     // Without a plateau the power law begins at a wave much longer than the profile.
-    const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * step;
+    const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * reach;
     const auto at = [&](double q) { return profile_density(q, hurst, begin, q_short); };
     // At this wave number the window changes the density by less than the bins can resolve.
-    if (q > 24 * step) return at(q);
-    return (at(q - step) + 4 * at(q) + at(q + step)) / 6;
+    if (q > 24 * reach) return at(q);
+    double sum = 0;
+    for (const auto& [displacement, share] : mixing) sum += share * at(std::abs(q + displacement));
+    return sum;
   };
 }
 
-/// Wave number at which the power falls below a quarter of the law, if it falls below a twentieth
-/// soon after; infinite if there is no such wave number.
-double end_of_law(std::span<const detail::SpectrumBin> bins, const detail::PowerLawRange& law,
-                  const detail::SelfAffineDensity& density) {
+/// Number of the bin in which the power falls below a quarter of the law, if it falls below a
+/// twentieth, and a tenth of what it was, soon after; the number of bins if there is no such bin.
+std::size_t end_of_law(std::span<const detail::SpectrumBin> bins, const detail::PowerLawRange& law,
+                       const detail::SelfAffineDensity& density) {
   // The first bins are left out: they have so few modes that some of them lack power by chance.
-  for (std::size_t i = bins.size() / 3; i < bins.size(); ++i) {
+  for (std::size_t i = std::max<std::size_t>(bins.size() / 3, 2); i < bins.size(); ++i) {
     const auto share = [&](const detail::SpectrumBin& bin) {
       return bin.power / (law.amplitude * density(bin.wavenumber, law.hurst.value, law.q_rolloff));
     };
     if (share(bins[i]) > 0.25) continue;
-    constexpr double soon = 1.6;
+    // The blur of a lens takes away power more slowly than this.
+    constexpr double soon = 1.3, part = 0.1;
     for (std::size_t k = i; k < bins.size() && bins[k].wavenumber < soon * bins[i].wavenumber; ++k)
-      if (share(bins[k]) < 0.05) return bins[i].wavenumber;
-    return endless;
+      if (share(bins[k]) < std::min(0.05, part * share(bins[i - 2]))) return i;
+    break;
   }
-  return endless;
+  return bins.size();
 }
 
 /// Wavelength below which the waves of a profile come from interpolation: twice its longest
@@ -138,6 +141,29 @@ double profile_density(double q, double hurst, double q_rolloff, double q_short)
   return density + 2 * std::pow(q_rolloff / q, 2 + 2 * hurst) * q * integral;
 }
 
+detail::ProfileLaw detail::fit_profile_law(const std::vector<SpectrumBin>& bins, double highest,
+                                           const WaveMixing& mixing) {
+  const auto below = [&](double limit) {
+    return std::span(bins).first(static_cast<std::size_t>(
+        std::ranges::count_if(bins, [&](const auto& bin) { return bin.wavenumber < limit; })));
+  };
+  ProfileLaw law;
+  for (int round = 0;; ++round) {
+    constexpr double steep = 0.85;
+    const auto density = windowed_density(mixing, law.q_short);
+    static_cast<PowerLawRange&>(law) =
+        fit_power_law_range(below(std::min(highest, steep * law.q_short)), density, 4);
+    if (!law.found() || round == 2) return law;
+    const std::size_t end = end_of_law(bins, law, windowed_density(mixing, endless));
+    const double q_short = end < bins.size() ? bins[end].wavenumber : endless;
+    if (q_short == law.q_short) return law;
+    law.q_short = q_short;
+    law.q_short_low = end < bins.size() ? bins[end - 1].wavenumber : IntervalEstimate::unknown;
+    // The powers of profiles fall gradually towards the end, so that it lies above the bin found.
+    law.q_short_high = end + 2 < bins.size() ? bins[end + 2].wavenumber : q_short;
+  }
+}
+
 ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   profile.require_complete("the spectrum of a profile");
   require(profile.grid.ny == 1 && profile.grid.nx >= 2, "profile",
@@ -166,27 +192,13 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
     std::erase_if(bins, [&](const auto& bin) { return bin.wavenumber > highest; });
   if (std::ranges::any_of(bins, [](const auto& bin) { return !(bin.power > 0); })) return fit;
 
+  // Hann's window mixes each wave with its two neighbours.
   const double step = 2 * pi / level.grid.lx;
-  const auto below = [&](double limit) {
-    return std::span(bins).first(static_cast<std::size_t>(
-        std::ranges::count_if(bins, [&](const auto& bin) { return bin.wavenumber < limit; })));
-  };
-  double q_short = endless;
-  detail::PowerLawRange law;
-  // If the law ends within the range, the spectrum of profiles lacks the power of waves beyond that
-  // end.
-  for (int round = 0; round < 3; ++round) {
-    constexpr double steep = 0.85;
-    const auto density = windowed_density(step, q_short);
-    law = detail::fit_power_law_range(below(std::min(highest, steep * q_short)), density, 4);
-    if (!law.found()) return fit;
-    if (round == 2) break;
-    const double end = end_of_law(bins, law, windowed_density(step, endless));
-    if (end == q_short) break;
-    q_short = end;
-  }
-  if (q_short != endless) fit.short_cutoff = 2 * pi / q_short;
-  if (law.rolloff_seen) fit.rolloff = 2 * pi / law.q_rolloff;
+  const detail::ProfileLaw law =
+      detail::fit_profile_law(bins, highest, {{-step, 1. / 6}, {0, 4. / 6}, {step, 1. / 6}});
+  if (!law.found()) return fit;
+  if (law.q_short != endless) fit.short_cutoff = 2 * pi / law.q_short;
+  fit.rolloff = law.rolloff().value;
   fit.hurst = law.hurst;
   return fit;
 }

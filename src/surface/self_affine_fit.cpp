@@ -13,6 +13,7 @@
 
 #include "base/numerics/dense_systems.hpp"
 #include "ring_means.hpp"
+#include "surface/windowed_fit.hpp"
 
 namespace salebra {
 namespace {
@@ -117,10 +118,7 @@ double deviance(const std::vector<Ring>& rings, double kink) {
 }
 
 IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
-  const double longest = 2 * pi / std::min(spectrum.grid.lx, spectrum.grid.ly);
-  const double lowest = spectrum.windowed
-                            ? 3.5 * longest
-                            : 0.999 * 2 * pi / std::max(spectrum.grid.lx, spectrum.grid.ly);
+  const double lowest = 0.999 * 2 * pi / std::max(spectrum.grid.lx, spectrum.grid.ly);
   const std::vector<Ring> rings = fine_rings(spectrum, lowest, hurst.wavenumber_max);
   if (rings.size() < 8) return {};
   const double first = rings.front().x, last = rings.back().x;
@@ -132,7 +130,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   for (int k = 0; k <= steps; ++k) values.push_back(deviance(rings, position(k)));
   const auto least = std::ranges::min_element(values);
   const auto best = static_cast<int>(least - values.begin());
-  const double limit = gsl_cdf_chisq_Pinv(0.95, 1) * spectrum.correlated_modes;
+  const double limit = gsl_cdf_chisq_Pinv(0.95, 1);
 
   // Golden-section search for the minimum of the deviance near the best of the tested positions.
   constexpr double golden = 0.6180339887498949;
@@ -200,6 +198,17 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
   if (!std::isfinite(low) || !std::isfinite(high)) return {};
   const Grid2D& grid = spectrum.grid;
   const double step = 2 * pi / std::min(grid.lx, grid.ly);
+  // The blur of a lens or a tip lowers the power gradually; just before the end of a spectrum it
+  // follows the law.
+  const std::vector<double> before =
+      parallel::sum_blocks(columns, 2, [&](Index begin, Index end, std::span<double> of_block) {
+        for_modes(spectrum, begin, end, [&](double q, double power, double) {
+          if (q < 0.8 * low || q > 0.9 * low) return;
+          of_block[0] += flat(q, power);
+          of_block[1] += 1;
+        });
+      });
+  if (before[0] / before[1] < 0.5 * sums[0] / sums[1]) return {};
   // The wave number `last` is the largest of all modes. If the modes without power fill less than a
   // ring, the cut-off may just be the largest wave number of the grid.
   if (last < high + 4 * step) return {};
@@ -211,9 +220,15 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
 }  // namespace
 
 SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, double shortest_wavelength) {
-  SelfAffineFit fit{estimate_hurst(spectrum, shortest_wavelength), {}, {}};
+  SelfAffineFit fit;
+  if (spectrum.windowed) {
+    const detail::WindowedFit windowed = detail::fit_windowed(spectrum, shortest_wavelength);
+    fit = {windowed.hurst, windowed.rolloff, {}};
+  } else {
+    fit.hurst = estimate_hurst(spectrum, shortest_wavelength);
+    if (fit.hurst.found()) fit.rolloff = fit_rolloff(spectrum, fit.hurst);
+  }
   if (!fit.hurst.found()) return fit;
-  fit.rolloff = fit_rolloff(spectrum, fit.hurst);
   fit.short_cutoff = find_short_cutoff(spectrum, fit.hurst);
   return fit;
 }

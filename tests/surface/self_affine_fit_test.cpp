@@ -1,15 +1,127 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <random>
+#include <salebra/base/error.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
+#include <salebra/surface/detrend.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
+#include <utility>
+#include <vector>
 
+#include "base/fft.hpp"
 #include "test_surfaces.hpp"
 
 using namespace salebra;
+using std::numbers::pi;
+
+namespace {
+
+/// The law of a surface with a lay: C ∝ max(u, u_r)^(−2−2H) up to u_s, in the elliptic wave number
+/// u. Wavelengths are those across the lay, in units of the side of the crop.
+struct Lay {
+  double hurst, rolloff, short_cutoff, stretch, angle;
+};
+
+/// A crop of n × n points of a field of twice the side, which is white noise times the square root
+/// of the law. blur: standard deviation of the point spread function of a lens, in points.
+Surface crop_with_lay(const Lay& lay, Index n, unsigned seed, double blur = 0) {
+  const Index size = 2 * n;
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  Field heights(size, size);
+  for (double& height : heights.reshaped()) height = normal(engine);
+  RealFft2D<double> fft(size, size);
+  std::vector<std::complex<double>> modes(static_cast<std::size_t>(size * fft.modes_y()));
+  fft.forward(heights.data(), modes.data());
+  const double c = std::cos(lay.angle), s = std::sin(lay.angle);
+  for (Index i = 0; i < size; ++i)
+    for (Index j = 0; j < fft.modes_y(); ++j) {
+      const double qx = pi * double(2 * i > size ? i - size : i), qy = pi * double(j);
+      const double u = std::hypot(c * qy - s * qx, lay.stretch * (c * qx + s * qy));
+      const double law = u > 2 * pi / lay.short_cutoff
+                             ? 0
+                             : std::pow(std::max(u, 2 * pi / lay.rolloff), -1 - lay.hurst);
+      modes[static_cast<std::size_t>(i * fft.modes_y() + j)] *=
+          law * std::exp(-(qx * qx + qy * qy) * blur * blur / 2 / double(n * n));
+    }
+  fft.backward(modes.data(), heights.data());
+  return detrended({{n, n, 1, 1}, heights.topLeftCorner(n, n).eval(), false, ""}, Detrend::plane);
+}
+
+bool holds(const IntervalEstimate& interval, double truth) {
+  return interval.low <= truth && truth <= interval.high;
+}
+
+}  // namespace
+
+TEST_CASE("The laws across and along a lay have limits that hold", "[self_affine]") {
+  const Lay lay{.hurst = 0.7,
+                .rolloff = 1.0 / 12,
+                .short_cutoff = 2.5 / 256,
+                .stretch = 3,
+                .angle = GENERATE(0.0, 0.5)};
+  constexpr int surfaces = 10;
+  int across = 0, along = 0, rolloffs = 0, held_rolloffs = 0, mean = 0, ends = 0;
+  for (unsigned seed = 1; seed <= surfaces; ++seed) {
+    const Surface surface = crop_with_lay(lay, 256, seed);
+    const PowerSpectrum spectrum = power_spectrum(surface);
+    const auto fit = fit_self_affine(spectrum, surface_lay(surface));
+    across += holds(fit.across.hurst, lay.hurst);
+    along += !fit.along.hurst.found() || holds(fit.along.hurst, lay.hurst);
+    for (const auto& [found, truth] : {std::pair(fit.across.rolloff, lay.rolloff),
+                                       {fit.along.rolloff, lay.stretch * lay.rolloff}}) {
+      rolloffs += found.found();
+      held_rolloffs += holds(found, truth);
+    }
+    ends += holds(fit.across.short_cutoff, lay.short_cutoff);
+    mean += holds(fit_self_affine(spectrum).rolloff, lay.rolloff);
+  }
+  INFO("across " << across << ", along " << along << ", roll-off " << held_rolloffs << " of "
+                 << rolloffs << ", cut-off " << ends << ", mean " << mean);
+  // At a coverage of 0.95, fewer than 7 of 10 have a probability of 0.001.
+  CHECK(across >= 7);
+  CHECK(along >= 7);
+  CHECK(rolloffs >= 5);
+  CHECK(held_rolloffs >= 0.75 * rolloffs);
+  CHECK(ends >= 7);
+  // The mean over all directions has a roll-off between those of both directions.
+  CHECK(mean < 5);
+}
+
+TEST_CASE("A lens changes neither the roll-off nor the end of a law that it does not show",
+          "[self_affine]") {
+  const Lay isotropic{
+      .hurst = 0.8, .rolloff = 1.0 / 12, .short_cutoff = 2.0 / 256, .stretch = 1, .angle = 0};
+  int found = 0, held = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    const SelfAffineFit fit =
+        fit_self_affine(power_spectrum(crop_with_lay(isotropic, 256, seed, 1)));
+    CHECK_FALSE(fit.short_cutoff.found());
+    found += fit.rolloff.found();
+    held += holds(fit.rolloff, isotropic.rolloff);
+  }
+  INFO(held << " of " << found);
+  CHECK(found >= 6);
+  CHECK(held >= 0.75 * found);
+}
+
+TEST_CASE("What a lens blurs across the lay does not enter the law along it", "[self_affine]") {
+  const Lay lay{
+      .hurst = 0.6, .rolloff = 1.0 / 20, .short_cutoff = 1.0 / 256, .stretch = 5, .angle = 0.3};
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Surface surface = crop_with_lay(lay, 256, seed, 2);
+    const auto fit = fit_self_affine(power_spectrum(surface), surface_lay(surface));
+    INFO(fit.across.hurst.value << ", " << fit.along.hurst.value);
+    CHECK((!fit.along.hurst.found() || holds(fit.along.hurst, lay.hurst)));
+  }
+  CHECK_THROWS_AS(fit_self_affine(power_spectrum(white({64, 64, 1, 1}, true)), SurfaceLay{}),
+                  InvalidInput);
+}
 
 TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 99 of 100 surfaces",
           "[self_affine]") {

@@ -162,7 +162,8 @@ TEST_CASE("The Hurst exponent is found, and its interval covers it", "[hurst]") 
     CHECK(estimate.wavenumber_max <= 2 * pi * 64 * 1.0001);
   }
   INFO("covered " << covered << " of " << found << ", mean " << sum / found);
-  CHECK(found >= runs - 1);
+  // An interval that covers 0 … 1 is not shown; a few small parts give one for H = 0.3.
+  CHECK(found >= runs - 3);
   CHECK(sum / found == Approx(hurst).margin(0.03));
   // 95 % of 40 are 38; at 93 %, 33 or fewer have a probability of 1 in 100.
   CHECK(covered >= 33);

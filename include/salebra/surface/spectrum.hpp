@@ -199,7 +199,7 @@ constexpr void describe(auto&& visit, std::type_identity<HurstEstimate>) {
 /// covers losses by pixels, lenses and tips. The fitted range is the longest range of q that this
 /// model describes (90 % point of the deviance), without the four longest waves and below 0.8 of
 /// π/max(dx, dy). The 95 % interval is that of a likelihood-ratio test at 5 % with free floor, g
-/// and roll-off; it is extended to include the most likely H if the shortest half octave of the
+/// and roll-off, relative to the deviance of the fit; it is extended to include the most likely H if the shortest half octave of the
 /// range is left out. Powers of neighbouring modes count as correlated.
 ///
 /// Waves shorter than shortest_wavelength, m, are excluded; a good choice is
