@@ -2,13 +2,13 @@
 // `salebra convert`: a surface from one file format to another.
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/surface/fill.hpp>
 
 #include "io/surface_formats.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "surface_figure.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -31,7 +31,7 @@ void run(ConvertArguments& arguments, Session& session) {
     surface = filled(std::move(surface));
   }
   write_surface(arguments.to, surface, session.provenance(), session.write_options());
-  if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
+  if (session.has_plot()) session.plot(figures::figure_of(surface, figures::spectrum_of(surface)));
   session.answer(answer);
 }
 

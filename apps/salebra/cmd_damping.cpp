@@ -9,11 +9,11 @@
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>  // analysis/ has no problem for it
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "assumption_options.hpp"
 #include "damping_maps.hpp"
-#include "figures.hpp"
 #include "io/number_table.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
@@ -104,7 +104,7 @@ void follow_file(const DampingArguments& arguments, Session& session) {
     group.dataset("dissipated", answer.loss.dissipated, {"time"});
     file.commit();
   }
-  session.plot(cycle_figure(path, answer.loss));
+  session.plot(figures::figure_of(path, answer.loss));
   AssumptionReport{.cases = {answer.assumptions},
                    .slip_followed = arguments.assumptions.friction_coefficient.has_value()}
       .answer(session, json_of(answer.loss));
@@ -165,7 +165,7 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
   const double indentation = indentation_of(law, contact.points.front());
   const Json object = json_of(state_of(law, indentation));
   write_tables(session, "damping", object, {});
-  if (session.has_plot()) session.plot(contact_figure(law, indentation));
+  if (session.has_plot()) session.plot(figures::figure_of(law, indentation));
   session.answer(object);
 }
 
@@ -181,7 +181,7 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
                slips ? arguments.steps : 1000,
                arguments.assumptions.friction_coefficient.value_or(ContactParameters::unknown),
                session.context());
-  session.plot(cycle_figure(cycle.path, cycle.loss));
+  session.plot(figures::figure_of(cycle.path, cycle.loss));
 }
 
 void lose(const DampingArguments& arguments, Session& session) {
@@ -232,7 +232,7 @@ void lose(const DampingArguments& arguments, Session& session) {
   if (lost == 0) {
     write_tables(session, "damping", object, {});
     if (!values.empty() && session.has_plot())
-      session.plot(damping_figure(quantity, values, answer.results));
+      session.plot(figures::figure_of(quantity, values, answer.results));
     else if (!arguments.maps.given())
       plot_case(arguments, answer, session);
     arguments.maps.write(answer, arguments.steps, session);
@@ -394,7 +394,7 @@ void damp(const DampingArguments& arguments, Session& session) {
   if (!amplitudes.empty() && session.has_output())
     write_map(first, arguments.body.falling_slope, session);
   if (session.has_plot()) {
-    const Figure figure = damper_figure(first, arguments.body.falling_slope, omega);
+    const figures::Figure figure = figures::figure_of(first, arguments.body.falling_slope, omega);
     require_that(!figure.panels.empty(), "--plot",
                  "there is only one number to draw; give a range, --mass, or --falling-slope with "
                  "several frequencies");

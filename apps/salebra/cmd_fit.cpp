@@ -5,10 +5,10 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "answers.hpp"
-#include "curve_figure.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
@@ -88,7 +88,7 @@ void run(const FitArguments& arguments, Session& session) {
   // The local decay lengths only go into the file: they are too long for the text of the answer.
   Json complete = answer;
   complete["local"] = lists_of(local_decay_length(curve));
-  if (session.has_plot()) session.plot(curve_figure(curve, fit));
+  if (session.has_plot()) session.plot(figures::figure_of(curve, fit));
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }
 

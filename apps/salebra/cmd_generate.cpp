@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -25,7 +26,6 @@
 #include "result_tables.hpp"
 #include "shape_options.hpp"
 #include "spectrum_options.hpp"
-#include "surface_figure.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -301,7 +301,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   } else {
     session.inform("no file was written; add --output FILE to keep the surface");
   }
-  if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
+  if (session.has_plot()) session.plot(figures::figure_of(surface, figures::spectrum_of(surface)));
   Json whole = json_of(surface.grid);
   whole.add(answer);
   session.answer(whole);

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <set>
 
 #include "assumption_options.hpp"
 #include "damping/joint_loop.hpp"
-#include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -62,29 +62,6 @@ detail::JointLoop loop_of(const JointArguments& arguments, const JointSolution& 
   for (double& x : loop.displacement) x *= along;
   for (double& force : loop.tangential_force) force *= up;
   return loop;
-}
-
-Figure joint_figure(const std::vector<JointLoss>& losses, const detail::JointLoop& loop) {
-  std::vector<double> force, amplitude, work;
-  for (const JointLoss& one : losses) {
-    force.push_back(one.tangential_force);
-    amplitude.push_back(one.tangential_amplitude);
-    work.push_back(one.work_per_cycle);
-  }
-  Figure figure;
-  figure.columns = 2;
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
-                           .x = axis_of("tangential_force", spans_decades(force)),
-                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(work)}});
-  figure.panels.back().curves = {{.name = "W", .x = force, .y = work}};
-  figure.panels.push_back({.title = "Loop of the largest motion, and backbone",
-                           .x = {.label = "x", .unit = "m"},
-                           .y = {.label = "T", .unit = "N"},
-                           .legend = PlotLegend::top_left});
-  figure.panels.back().curves = {
-      {.name = "loop", .x = loop.displacement, .y = loop.tangential_force},
-      {.name = "backbone", .x = amplitude, .y = force, .style = PlotStyle::dashed}};
-  return figure;
 }
 
 void check(const JointArguments& arguments) {
@@ -317,8 +294,10 @@ void run(const JointArguments& arguments, Session& session) {
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
   take_numbers(found.losses, tables.front());
-  if (session.has_plot())
-    session.plot(joint_figure(found.losses, loop_of(arguments, found, session)));
+  if (session.has_plot()) {
+    const detail::JointLoop loop = loop_of(arguments, found, session);
+    session.plot(figures::figure_of(found.losses, loop.displacement, loop.tangential_force));
+  }
   add_first_loading(answer, found.contact.first_loading);
   AssumptionReport{{found.assumptions}}.answer(session, answer);
 }

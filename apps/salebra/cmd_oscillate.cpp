@@ -10,6 +10,7 @@
 #include <salebra/analysis/oscillation.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/figures/figures.hpp>
 
 #include "assumption_options.hpp"
 #include "base/memory.hpp"
@@ -209,23 +210,6 @@ Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
   };
 }
 
-Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
-                 const std::vector<std::string>& shapes) {
-  Figure figure;
-  const bool single = outcomes.size() == 1;
-  if (!single) {
-    figure.title = "Contact regions and work over a cycle";
-    figure.columns = static_cast<int>(outcomes.size());
-  }
-  for (std::size_t k = 0; k < outcomes.size(); ++k)
-    figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : shapes[k]));
-  for (const OscillationOutcome& outcome : outcomes)
-    figure.panels.push_back(work_panel(outcome, single ? "work" : ""));
-  for (const OscillationOutcome& outcome : outcomes)
-    if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
-  return figure;
-}
-
 // Table with a line for each shape, or for each direction of a surface.
 std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std::string& heading,
                      const std::vector<std::string>& shapes) {
@@ -270,7 +254,7 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
       write_outcome(file, single ? "" : shapes[k] + "/", outcomes[k]);
     file.commit();
   }
-  if (session.has_plot()) session.plot(figure_of(outcomes, shapes));
+  if (session.has_plot()) session.plot(figures::figure_of(outcomes, shapes));
   const ContactParameters parameters =
       arguments.assumptions.parameters(arguments.material, arguments.friction.friction_coefficient);
   Json all;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <salebra/analysis/sliding.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 
 #include "assumption_options.hpp"
 #include "law_options.hpp"
@@ -16,7 +17,6 @@
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
-#include "sliding_figure.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -192,9 +192,9 @@ void slide(const SlidingArguments& arguments, Session& session) {
       for (const Regime regime : row) regimes.push_back(std::string(name_of(regime)));
   }
   if (session.has_plot())
-    session.plot(maps      ? regime_figure(*found.regimes, problem.angular_frequency)
-                 : !single ? amplitude_figure(found.points, problem)
-                           : sliding_figure(found.points, problem.friction_coefficient));
+    session.plot(maps      ? figures::figure_of(*found.regimes, problem.angular_frequency)
+                 : !single ? figures::figure_of(found.points, problem)
+                           : figures::figure_of(found.points, problem.friction_coefficient));
   assumptions.answer(session, answer, text);
 }
 
@@ -244,7 +244,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
                {table_of("motion", lists_of(found.motion)),
                 table_of("averaged_motion", lists_of(found.averaged))});
   if (session.has_plot())
-    session.plot(slider_figure(found.motion, found.averaged, problem.slider.spring_stiffness));
+    session.plot(figures::figure_of(found.motion, found.averaged, problem.slider.spring_stiffness));
   const ContactParameters known = arguments.assumptions.parameters(arguments.material);
   AssumptionReport{
       {contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}

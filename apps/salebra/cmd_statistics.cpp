@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
@@ -29,7 +30,6 @@
 #include "several_files.hpp"
 #include "surface/asymmetry.hpp"
 #include "surface/psd_convention.hpp"
-#include "surface_figure.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -273,7 +273,7 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   }
   write_tables(session, "statistics", whole, tables);
   if (session.has_plot())
-    session.plot(surface_figure(surface, {std::move(spectrum), fit.mean.hurst}));
+    session.plot(figures::figure_of(surface, {std::move(spectrum), fit.mean.hurst}));
   if (!arguments.all) return session.answer(arguments.in_table ? whole : answer);
   std::string text = to_text(whole);
   for (const ResultTable& table : tables)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/twin_file.hpp>
 #include <salebra/surface/moments.hpp>
@@ -15,7 +16,6 @@
 #include "options.hpp"
 #include "program.hpp"
 #include "results/answer_json.hpp"
-#include "surface_figure.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
 #include "toml_text.hpp"
@@ -164,7 +164,7 @@ void run(const TwinArguments& arguments, Session& session) {
   session.warn(warnings);
   if (session.has_output())
     write_twin(session.output(), twin, session.provenance(), session.write_options());
-  if (session.has_plot()) session.plot(twin_figure(twin));
+  if (session.has_plot()) session.plot(figures::figure_of(twin));
   Json answer = answer_json(twin);
   answer["groups"] = to_json(twin.groups);
   answer["scans"] = to_json(twin.scans);

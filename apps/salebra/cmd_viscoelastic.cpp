@@ -8,10 +8,10 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>  // analysis/ has no problem for it
+#include <salebra/figures/figures.hpp>
 
 #include "assumption_options.hpp"
 #include "damping/phase_quadrature.hpp"
-#include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -50,37 +50,6 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
   parse_values(moduli, Dimension::pressure, "--prony");
   parse_values(times, Dimension::time, "--prony");
   return terms;
-}
-
-Figure loss_figure(const ResultTable& table) {
-  const auto values = [&](const char* name) {
-    return std::ranges::find(table.columns, std::string(name), &ResultColumn::name)->values;
-  };
-  const ResultColumn& along = table.columns.front();
-  const PlotAxis x = axis_of(along.name, spans_decades(along.values));
-  Figure figure;
-  figure.columns = 2;
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
-                           .x = x,
-                           .y = {.label = "W", .unit = "J", .logarithmic = true},
-                           .legend = PlotLegend::top_left});
-  std::vector<PlotCurve>& losses = figure.panels.back().curves;
-  for (const auto& [name, title] : {std::pair{"normal_material_work", "material, normal"},
-                                    {"tangential_material_work", "material, tangential"},
-                                    {"relaxation_work", "relaxation"}})
-    losses.push_back({.name = title, .x = along.values, .y = values(name)});
-  losses.push_back({.name = "elastic, relaxed modulus",
-                    .x = along.values,
-                    .y = values("elastic_work"),
-                    .style = PlotStyle::dashed});
-  figure.panels.push_back({.title = "Complex shear modulus",
-                           .x = x,
-                           .y = {.label = "modulus", .unit = "Pa", .logarithmic = true},
-                           .legend = PlotLegend::top_left});
-  figure.panels.back().curves = {
-      {.name = "storage", .x = along.values, .y = values("storage_modulus")},
-      {.name = "loss", .x = along.values, .y = values("loss_modulus")}};
-  return figure;
 }
 
 // Computes the loss of each motion.
@@ -147,7 +116,9 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
     table.columns.insert(table.columns.begin(), {quantity, values});
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
-  if (session.has_plot()) session.plot(loss_figure(table));
+  if (session.has_plot())
+    session.plot(
+        figures::figure_of(table.columns.front().name, table.columns.front().values, losses));
   assumptions.answer(session, answer);
 }
 

@@ -9,12 +9,12 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "contact_command.hpp"
-#include "curve_figure.hpp"
 #include "option_words.hpp"
 
 namespace salebra::cli {
@@ -145,8 +145,8 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));
   collectively(session.communicator(), [&] { write(loading, unloading, cycle, session); });
   if (session.has_plot())
-    session.plot(arguments.cycle ? cycle_figure(loading.curve, unloading.curve)
-                                 : curve_figure(loading.curve));
+    session.plot(arguments.cycle ? figures::figure_of(loading.curve, unloading.curve)
+                                 : figures::figure_of(loading.curve, std::nullopt));
   session.answer(answer);
   for (const Branch* branch : {&loading, &unloading})
     if (!std::ranges::all_of(branch->flow, &FlowFactors::converged))

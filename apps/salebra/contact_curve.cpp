@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <salebra/figures/figures.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/memory.hpp"
 #include "contact/half_space/normal_symbol.hpp"
 #include "contact_command.hpp"
-#include "curve_figure.hpp"
 #include "dry_run.hpp"
 #include "results/columns.hpp"
 
@@ -95,7 +95,7 @@ void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Js
       write_force_curve(session.output(), curve, session.provenance(), session.write_options(),
                         beside);
   });
-  if (session.has_plot()) session.plot(curve_figure(curve));
+  if (session.has_plot()) session.plot(figures::figure_of(curve, std::nullopt));
   session.answer(answer);
 }
 

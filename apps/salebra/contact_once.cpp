@@ -11,12 +11,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/distributions.hpp>  // analysis/ has no problem for it
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 
 #include "answers.hpp"
 #include "contact_command.hpp"
-#include "curve_figure.hpp"
 #include "option_words.hpp"
 #include "results/describe.hpp"
 #include "results/quantity_group.hpp"
@@ -159,7 +159,7 @@ class OneContact {
     if (state_.converged() && session_.has_output())
       write_contact(arguments_, session_, surface_.grid, state_, beside_, distributions_);
     if (state_.converged() && session_.has_plot())
-      session_.plot(pressure_figure(surface_.grid, state_));
+      session_.plot(figures::figure_of(surface_.grid, state_));
     session_.answer(answer_);
     require_convergence();
     arguments_.checkpoint.remove(session_);

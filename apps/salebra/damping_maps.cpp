@@ -4,10 +4,10 @@
 #include "damping_maps.hpp"
 
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
 
-#include "figures.hpp"
 #include "options.hpp"
 #include "results/quantity_group.hpp"
 
@@ -32,8 +32,8 @@ void write_stress_map(const MapOptions& options, const DampingSolution& answer, 
   group.dataset("shear", map.shear, "angle", "radial_position");
   group.dataset("contact_pressure", map.contact_pressure, "angle", "radial_position");
   if (session.has_plot() && options.friction_map.empty())
-    session.plot(stress_figure(law, answer.results.front().indentation,
-                               *oscillation_of(answer.motions.front()), map));
+    session.plot(figures::figure_of(law, answer.results.front().indentation,
+                                    *oscillation_of(answer.motions.front()), map));
   file.commit();
 }
 
@@ -48,7 +48,7 @@ void write_friction_map(const MapOptions& options, const DampingSolution& answer
   group.dataset("loss_ratio", map.loss_ratio, "friction_number", "phase");
   group.dataset("relaxation_ratio", map.relaxation_ratio, "friction_number", "phase");
   group.dataset("slip_ratio", map.slip_ratio, "friction_number", "phase");
-  if (session.has_plot()) session.plot(friction_figure(map));
+  if (session.has_plot()) session.plot(figures::figure_of(map));
   file.commit();
 }
 

@@ -163,58 +163,6 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
   group.attribute("work_by_whole_cells", outcome.intervals.work_by_intervals);
 }
 
-PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title) {
-  const Grid2D& grid = outcome.run.body.surface.grid;
-  PlotPanel panel;
-  panel.title = title;
-  panel.x = {.label = "x", .unit = "m"};
-  panel.y = {.label = "y", .unit = "m"};
-  panel.equal_scales = true;
-  panel.image = PlotImage{.x = positions(grid.nx, grid.dx()),
-                          .y = positions(grid.ny, grid.dy()),
-                          .values = outcome.cycle->contact_map(),
-                          .scale = {.low = 0, .high = 2},
-                          .palette = PlotPalette::grey,
-                          .color_bar = false};
-  return panel;
-}
-
-PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title) {
-  const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
-  const CycleResult& cycle = *outcome.cycle;
-  const double predicted = outcome.intervals.small_amplitude_work;
-  const bool lossless = !outcome.over(predicted);
-  std::vector<double> values = column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
-  const double reference = lossless ? outcome.elastic_energy() : predicted;
-  for (double& value : values) value /= reference;
-  PlotPanel panel;
-  panel.title = title;
-  panel.x = {.label = "time in periods", .low = 0, .high = 1};
-  const std::string work = drag ? "energy released" : "W(t)";
-  panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
-                               : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
-  panel.curves.push_back({.x = column(cycle, &CycleSample::t), .y = std::move(values), .color = 0});
-  panel.lines.push_back({.at = lossless ? 0.0 : 1.0});
-  return panel;
-}
-
-PlotPanel loop_panel(const OscillationOutcome& outcome) {
-  PlotPanel panel;
-  panel.title = "loop";
-  panel.x = {.label = "x", .unit = "m"};
-  panel.y = {.label = "F_x", .unit = "N"};
-  const auto add = [&](const char* name, const CycleResult& cycle) {
-    panel.curves.push_back({.name = name,
-                            .x = column(cycle, &CycleSample::tangential),
-                            .y = column(cycle, &CycleSample::tangential_force)});
-  };
-  add("no slip", *outcome.cycle);
-  if (std::isfinite(outcome.friction_coefficient)) add("friction", *outcome.frictional);
-  if (outcome.coupled) add("coupled", *outcome.coupled);
-  panel.legend = PlotLegend::top_left;
-  return panel;
-}
-
 void warn_of(const OscillationOutcome& outcome, Session& session) {
   if (outcome.frictional)
     warn_of_cycle("friction", *outcome.frictional, outcome.uncertain_loss(), session);

@@ -5,10 +5,9 @@
 #include <salebra/io/result_file.hpp>
 #include <string>
 
-#include "io/plot.hpp"
 #include "session.hpp"
 
-/// JSON, files and figures of `salebra oscillate`.
+/// JSON and files of `salebra oscillate`.
 namespace salebra::cli {
 
 /// JSON of an outcome. It has the objects "friction" and "coupling" if these cycles were simulated.
@@ -19,17 +18,5 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
 /// Warns of losses that have not become periodic, of an energy balance that does not close, and of
 /// a requested error that was not reached.
 void warn_of(const OscillationOutcome& outcome, Session& session);
-
-/// Fig. 3b of the paper: map of the cells, black if always in contact, grey if in contact during a
-/// part of the cycle.
-PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title);
-/// Fig. 3c of the paper, over the time: at equal frequencies the work W(t) divided by the loss of
-/// Eq. (12), under a drag the energy released so far divided by the loss of Eq. (15). If no energy
-/// is lost, the work is divided by ½K_t u² with the tangential amplitude u instead.
-PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title);
-
-/// Loops of tangential force F_x over displacement x for the cycles without slip, with friction and
-/// with coupling.
-PlotPanel loop_panel(const OscillationOutcome& outcome);
 
 }  // namespace salebra::cli

@@ -83,7 +83,8 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
   }
   if (check != OutputCheck::by_command) require_free_output();
   collectively(communicator(), [&] {
-    if (has_plot() && communicator().is_root()) require_plot(options_.plot, write_options());
+    if (has_plot() && communicator().is_root())
+      figures::require_plot(options_.plot, write_options());
   });
   if (!communicator().alone()) warn_of_few_cores();
   // A file may name other files to read, so each file is checked when it is opened. With several
@@ -199,8 +200,9 @@ Provenance Session::provenance() const {
   return provenance;
 }
 
-void Session::plot(const Figure& figure) {
-  if (has_plot() && communicator().is_root()) write_plot(options_.plot, figure, write_options());
+void Session::plot(const figures::Figure& figure) {
+  if (has_plot() && communicator().is_root())
+    figures::write_plot(options_.plot, figure, write_options());
 }
 
 Progress Session::progress() {

@@ -14,8 +14,8 @@
 #include <string_view>
 
 #include "command.hpp"
+#include "figures/plot.hpp"
 #include "io/json.hpp"
-#include "io/plot.hpp"
 #include "launch.hpp"
 #include "named_files.hpp"
 #include "progress_bar.hpp"
@@ -82,7 +82,7 @@ class Session {
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws the picture of --plot; does nothing if --plot was not given.
-  void plot(const Figure& figure);
+  void plot(const figures::Figure& figure);
   /// Options for the writers of the library. Throws InvalidInput if this process is one of several
   /// independent tasks, which would all write the same file.
   WriteOptions write_options() const;

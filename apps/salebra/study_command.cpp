@@ -18,13 +18,13 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
 #include <salebra/study/twin_file.hpp>
 #include <set>
 
-#include "compare_figure.hpp"
 #include "dry_run.hpp"
 #include "results/answer_json.hpp"
 #include "results/columns.hpp"
@@ -678,7 +678,7 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
   StudyReport report(arguments, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
   if (results.empty()) return;
-  if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
+  if (session.has_plot()) session.plot(figures::figure_of(results, configuration.ensemble));
   StudyFiles files{.report = report.write()};
   if (session.has_output()) files.results = session.output().string();
   Json answer;

@@ -2,7 +2,7 @@
 # cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or, inside
 # contact/, of a room that its own room must not see. A file's layer and room are the folders that it stands in.
 cmake_minimum_required(VERSION 3.25)
-set(layers base generators surface contact damping analysis io results study export report mpi apps salebra.hpp)
+set(layers base generators surface contact damping analysis io results study figures export report mpi apps salebra.hpp)
 
 # The rooms of contact/, and which others each of them sees: folders, and single files of that name.
 set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. operating_point.)

@@ -8,7 +8,7 @@ set(commands "compare|contact|convert|damper|damping|fit|generate|mdr|oscillate|
 set(seen 0)
 foreach(file IN LISTS files)
   # One runs gnuplot with its options, the other is a command line of its own.
-  if(file STREQUAL src/io/plot.cpp OR file STREQUAL python/salebra/_importing.py)
+  if(file STREQUAL src/figures/plot.cpp OR file STREQUAL python/salebra/_importing.py)
     continue()
   endif()
   file(STRINGS ${ROOT}/${file} lines REGEX "\"")

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/figures/figure.hpp>
 #include <string>
 
-#include "plot.hpp"
-
-namespace salebra::detail {
+namespace salebra::figures {
 
 enum class PictureFormat { png, svg, pdf };
 
@@ -14,4 +13,4 @@ enum class PictureFormat { png, svg, pdf };
 /// figure that cannot be drawn.
 std::string gnuplot_script(const Figure& figure, PictureFormat format);
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

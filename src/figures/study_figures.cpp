@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure of `compare`: curves of all models with 95 % bands.
-#include "compare_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <salebra/figures/figures.hpp>
+#include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
 
-namespace salebra::cli {
+namespace salebra::figures {
 namespace {
 
 std::vector<double> column(const std::vector<EnsembleMean>& estimates,
@@ -19,8 +19,8 @@ std::vector<double> column(const std::vector<EnsembleMean>& estimates,
   return values;
 }
 
-PlotCurve band(const std::string& name, const std::vector<double>& x,
-               const std::vector<EnsembleMean>& y) {
+Curve band(const std::string& name, const std::vector<double>& x,
+           const std::vector<EnsembleMean>& y) {
   return {.name = name,
           .x = x,
           .y = column(y, &EnsembleMean::mean),
@@ -30,11 +30,11 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
 
 /// Adds γ of the motion as the user described it, with the same numbers as the table of the study:
 /// with the 95 % interval over the surfaces or, for one surface, the numerical error.
-void add_answer(const StudyResult& result, PlotPanel& damping) {
+void add_answer(const StudyResult& result, Panel& damping) {
   const StudySolution answer = solution_of(result);
   const bool sample = result.realisations.size() > 1;
   bool any_bar = false;
-  PlotCurve points{.x = result.pressures, .style = PlotStyle::points, .color = 0};
+  Curve points{.x = result.pressures, .style = Style::points, .color = 0};
   for (const StatedMean& one : answer.damping_constant) {
     const double low = sample ? one.low : one.mean - one.error,
                  high = sample ? one.high : one.mean + one.error;
@@ -58,50 +58,48 @@ void add_answer(const StudyResult& result, PlotPanel& damping) {
 
 /// Adds the window of the fit, the limits of theories for vanishing load, and the exponential law
 /// with the fitted decay length l.
-void add_references(const StudyResult& result, std::array<PlotPanel, 4>& panels) {
+void add_references(const StudyResult& result, std::array<Panel, 4>& panels) {
   auto& [gaps, areas, stiffness, damping] = panels;
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
   const StudyTheories theories = result.theories();
   areas.lines = {{.at = theories.bgt_area_slope, .name = "BGT"}};
   if (!result.configuration.has(ContactModel::persson))
     areas.lines.push_back({.at = theories.persson_area_slope, .name = "Persson"});
-  PlotCurve edge = band("boundary elements, less the edge", result.pressures,
-                        result.at_pressures([&](const Realisation& r, std::size_t k) {
-                          return r.spots[k].corrected_area_fraction / result.pressures[k] *
-                                 r.moments.rms_slope() *
-                                 result.configuration.material.contact_modulus;
-                        }));
-  edge.style = PlotStyle::dotted;
+  Curve edge = band("boundary elements, less the edge", result.pressures,
+                    result.at_pressures([&](const Realisation& r, std::size_t k) {
+                      return r.spots[k].corrected_area_fraction / result.pressures[k] *
+                             r.moments.rms_slope() * result.configuration.material.contact_modulus;
+                    }));
+  edge.style = Style::dotted;
   edge.color = 0;
   areas.curves.push_back(std::move(edge));
   if (result.configuration.adhesion) return;
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", result.pressures,
-                       result.damping(&DampingPoint::damping_constant_closed_form));
+  Curve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", result.pressures,
+                   result.damping(&DampingPoint::damping_constant_closed_form));
   law.low = law.high = {};
-  law.style = PlotStyle::dashed;
+  law.style = Style::dashed;
   law.color = 7;
   damping.curves.push_back(std::move(law));
 }
 
 /// Panels of one point of the parameter grid: gap, area, stiffness and damping over the pressure,
 /// with bands of 95 %.
-std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
-  std::array<PlotPanel, 4> panels;
+std::array<Panel, 4> panels_of(const StudyResult& result) {
+  std::array<Panel, 4> panels;
   auto& [gaps, areas, stiffness, damping] = panels;
-  for (PlotPanel& panel : panels) {
+  for (Panel& panel : panels) {
     panel.x = {.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
-    panel.top = {.label = "p/(E^{*}h')", .logarithmic = true};
-    panel.top_factor = 1 / result.contact_scale;
+    panel.second_x = SecondAxis{.label = "p/(E^{*}h')", .factor = 1 / result.contact_scale};
   }
-  damping.top = {.label = "normal force F", .unit = "N", .logarithmic = true};
-  damping.top_factor = result.grid.area();
+  damping.second_x =
+      SecondAxis{.label = "normal force F", .unit = "N", .factor = result.grid.area()};
   gaps.y = {.label = "mean gap ū/h_{rms}"};
   areas.y = {.label = "area over load, A E^{*}h'/F"};
   stiffness.y = {.label = "stiffness K h_{rms}/F"};
   damping.y = {.label = "damping constant γ", .unit = "N s/m", .logarithmic = true};
-  gaps.legend = PlotLegend::bottom_left;
-  damping.legend = PlotLegend::top_left;
+  gaps.legend = Legend::bottom_left;
+  damping.legend = Legend::top_left;
   for (const StudyModel& model : result.models()) {
     const auto scaled = [&](auto value) {
       return result.at_pressures([&](const Realisation& r, std::size_t k) {
@@ -112,7 +110,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
     };
     // Models are numbered as in the list of all models, and the number sets the colour, so each
     // model has the same colour in every figure.
-    const auto add = [&](PlotPanel& panel, const std::vector<EnsembleMean>& y) {
+    const auto add = [&](Panel& panel, const std::vector<EnsembleMean>& y) {
       panel.curves.push_back(band("", result.pressures, y));
       panel.curves.back().color = int(model.id);
     };
@@ -136,8 +134,8 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
 }
 
 /// Whether a panel has a finite value to show; false if no model computes its quantity.
-bool shows_anything(const PlotPanel* panel) {
-  return std::ranges::any_of(panel->curves, [&](const PlotCurve& curve) {
+bool shows_anything(const Panel* panel) {
+  return std::ranges::any_of(panel->curves, [&](const Curve& curve) {
     return std::ranges::any_of(curve.y, [&](double value) {
       return std::isfinite(value) && (value > 0 || !panel->y.logarithmic);
     });
@@ -146,21 +144,21 @@ bool shows_anything(const PlotPanel* panel) {
 
 /// Gives all panels the same limits, which contain all their curves and bands, so that they can be
 /// compared.
-void share_limits(const std::vector<PlotPanel*>& panels) {
+void share_limits(const std::vector<Panel*>& panels) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const PlotPanel* panel : panels)
-    for (const PlotCurve& curve : panel->curves)
+  for (const Panel* panel : panels)
+    for (const Curve& curve : panel->curves)
       for (const auto* values : {&curve.y, &curve.low, &curve.high})
         for (const double value : *values)
           if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic) &&
-              (values != &curve.low || curve.style != PlotStyle::points)) {
+              (values != &curve.low || curve.style != Style::points)) {
             low = std::min(low, value);
             high = std::max(high, value);
           }
   if (!(low < high)) return;
   const bool logarithmic = panels.front()->y.logarithmic;
   const double margin = 0.04 * (logarithmic ? std::log(high / low) : high - low);
-  for (PlotPanel* panel : panels) {
+  for (Panel* panel : panels) {
     panel->y.low = logarithmic ? low * std::exp(-margin) : low - margin;
     panel->y.high = logarithmic ? high * std::exp(margin) : high + margin;
   }
@@ -168,21 +166,21 @@ void share_limits(const std::vector<PlotPanel*>& panels) {
 
 }  // namespace
 
-Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLists& varied) {
+Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied) {
   Figure figure;
   figure.columns = results.size() == 1 ? 2 : int(results.size());
-  std::vector<std::array<PlotPanel, 4>> points;
+  std::vector<std::array<Panel, 4>> points;
   for (const StudyResult& result : results) points.push_back(panels_of(result));
   for (std::size_t quantity = 0; quantity < 4; ++quantity) {
-    std::vector<PlotPanel*> row;
+    std::vector<Panel*> row;
     for (auto& point : points) row.push_back(&point[quantity]);
     if (!std::ranges::all_of(row, shows_anything)) continue;
     if (row.size() > 1) share_limits(row);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      PlotPanel& panel = points[i][quantity];
+      Panel& panel = points[i][quantity];
       // Only panels in the first column have a legend.
       if (i > 0)
-        for (PlotCurve& curve : panel.curves) curve.name.clear();
+        for (Curve& curve : panel.curves) curve.name.clear();
       if (quantity == 0 && points.size() > 1)
         panel.title = describe_point(varied, results[i].configuration);
       figure.panels.push_back(std::move(panel));
@@ -191,4 +189,4 @@ Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLi
   return figure;
 }
 
-}  // namespace salebra::cli
+}  // namespace salebra::figures

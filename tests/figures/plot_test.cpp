@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/plot.hpp"
+#include "figures/plot.hpp"
 
 #include <unistd.h>
 
@@ -12,11 +12,12 @@
 #include <salebra/base/error.hpp>
 #include <sstream>
 
-#include "../../src/io/gnuplot_script.hpp"
-#include "../../src/io/plot_raster.hpp"
-#include "scratch.hpp"
+#include "figures/gnuplot_script.hpp"
+#include "figures/plot_raster.hpp"
+#include "io/scratch.hpp"
 
 using namespace salebra;
+using namespace salebra::figures;
 using Catch::Contains;
 
 namespace {
@@ -33,7 +34,7 @@ std::size_t files_in(const std::filesystem::path& folder) {
 
 Figure force_figure() {
   Figure figure;
-  PlotPanel& panel = figure.panels.emplace_back();
+  Panel& panel = figure.panels.emplace_back();
   panel.title = "Hertz";
   panel.x = {.label = "indentation", .unit = "m"};
   panel.y = {.label = "force", .unit = "N"};
@@ -94,10 +95,10 @@ TEST_CASE("A PDF is whole and has one page of the size of its panels", "[plot]")
 TEST_CASE("A PNG has the size of its panels, and maps on logarithmic axes can be drawn", "[plot]") {
   const Scratch scratch;
   Figure figure = force_figure();
-  PlotPanel& map = figure.panels.emplace_back();
+  Panel& map = figure.panels.emplace_back();
   map.x = {.label = "frequency", .unit = "Hz", .logarithmic = true};
   map.y = {.label = "amplitude", .unit = "m"};
-  PlotImage image;
+  Image image;
   image.x = {1e3, 1e4, 1e5, 2e5};
   image.y = {1e-9, 2e-9, 3e-9};
   image.values = Field(4, 3);
@@ -122,12 +123,12 @@ TEST_CASE("A PNG has the size of its panels, and maps on logarithmic axes can be
 TEST_CASE("A field without contrast, a single point and an infinite value can be drawn", "[plot]") {
   const Scratch scratch;
   Figure figure;
-  PlotPanel& map = figure.panels.emplace_back();
-  map.image = PlotImage{.x = {0, 1}, .y = {0, 1}, .values = Field::Zero(2, 2), .contours = {0}};
-  map.image->palette = GENERATE(PlotPalette::sequential, PlotPalette::diverging, PlotPalette::grey);
-  PlotPanel& point = figure.panels.emplace_back();
-  point.curves.push_back({.x = {1}, .y = {0}, .style = PlotStyle::points});
-  PlotPanel& pole = figure.panels.emplace_back();
+  Panel& map = figure.panels.emplace_back();
+  map.image = Image{.x = {0, 1}, .y = {0, 1}, .values = Field::Zero(2, 2), .contours = {0}};
+  map.image->palette = GENERATE(Palette::sequential, Palette::diverging, Palette::grey);
+  Panel& point = figure.panels.emplace_back();
+  point.curves.push_back({.x = {1}, .y = {0}, .style = Style::points});
+  Panel& pole = figure.panels.emplace_back();
   pole.y.logarithmic = true;
   pole.curves.push_back({.x = {0, 1, 2, 3}, .y = {1, INFINITY, 0, 2}});
   CHECK_NOTHROW(write_plot(scratch / "a.svg", figure));
@@ -138,14 +139,14 @@ TEST_CASE("Names are shown as they are and never run", "[plot]") {
   Figure figure = force_figure();
   const std::string nasty =
       "my_file^2 {a} `touch " + (scratch / "ran").string() + "` it's \\ \"x\"";
-  PlotPanel& panel = figure.panels[0];
+  Panel& panel = figure.panels[0];
   panel.lines.push_back({.at = 100e-9, .vertical = true});
   panel.lines.push_back({.at = 5e3});
   const std::array<std::string*, 6> texts = {&figure.title,        &panel.title,
                                              &panel.x.label,       &panel.curves[0].name,
                                              &panel.lines[0].name, &panel.lines[1].name};
   for (std::size_t k = 0; k < texts.size(); ++k)
-    *texts[k] = plot_text(std::to_string(k) + nasty + "\\");
+    *texts[k] = plain_text(std::to_string(k) + nasty + "\\");
   write_plot(scratch / "a.svg", figure);
   CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
   const std::string text = content(scratch / "a.svg");
@@ -156,7 +157,7 @@ TEST_CASE("Names are shown as they are and never run", "[plot]") {
 TEST_CASE("A figure that cannot be drawn is refused by name", "[plot]") {
   const Scratch scratch;
   Figure figure = force_figure();
-  CHECK_THROWS_WITH(write_plot(scratch / "a.jpg", figure), Contains(".png, .svg or .pdf"));
+  CHECK_THROWS_WITH(write_plot(scratch / "a.jpg", figure), Contains(".png, .svg, .pdf or .json"));
   CHECK_THROWS_AS(write_plot(scratch / "a.jpg", figure), InvalidInput);
   CHECK_THROWS_WITH(write_plot(scratch / "no" / "a.png", figure), Contains("does not exist"));
   const auto taken = scratch.file("taken.png", "precious");
@@ -176,7 +177,7 @@ TEST_CASE("A figure that cannot be drawn is refused by name", "[plot]") {
   figure.panels[0].curves.clear();
   CHECK_THROWS_AS(write_plot(scratch / "a.png", figure), InvalidInput);
   figure = force_figure();
-  figure.panels[0].image = PlotImage{.x = {0, 2, 1}, .y = {0, 1}, .values = Field::Zero(3, 2)};
+  figure.panels[0].image = Image{.x = {0, 2, 1}, .y = {0, 1}, .values = Field::Zero(3, 2)};
   CHECK_THROWS_WITH(write_plot(scratch / "a.png", figure), Contains("increase"));
   CHECK(files_in(scratch.folder()) == 1);
 }
@@ -204,14 +205,14 @@ TEST_CASE("A map of more cells than a picture draws is averaged, each cell about
           "[plot]") {
   // 2400 columns at 0.5, 1.5 … are drawn as 1200: each is the mean of a pair, or the value of the
   // pair that is a number.
-  PlotImage image;
+  Image image;
   for (int i = 0; i < 2400; ++i) image.x.push_back(i + 0.5);
   image.y = {0, 1};
   image.values = Field(2400, 2);
   for (Index i = 0; i < 2400; ++i) image.values.row(i) = double(i);
   image.values(10, 0) = std::nan("");
   image.values(12, 1) = image.values(13, 1) = std::nan("");
-  const detail::Raster raster = detail::rasterise(image, {}, {});
+  const Raster raster = rasterise(image, {}, {});
   REQUIRE(raster.values.rows() == 1200);
   REQUIRE(raster.values.cols() == 2);
   CHECK(raster.x0 == Approx(1));
@@ -226,7 +227,7 @@ TEST_CASE("A map of more cells than a picture draws is averaged, each cell about
 }
 
 TEST_CASE("A band is drawn between its limits, the curve through its values", "[plot]") {
-  const std::string script = detail::gnuplot_script(force_figure(), detail::PictureFormat::svg);
+  const std::string script = gnuplot_script(force_figure(), PictureFormat::svg);
   // The columns are x, y, lower and upper limit, in nm and kN.
   CHECK_THAT(script, Contains("\n2 2 1 3\n"));
   CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
@@ -235,13 +236,13 @@ TEST_CASE("A band is drawn between its limits, the curve through its values", "[
 TEST_CASE("A logarithmic axis has more than one number, and its lines stay in its panel",
           "[plot]") {
   Figure figure = force_figure();
-  PlotPanel& panel = figure.panels[0];
+  Panel& panel = figure.panels[0];
   panel.y.logarithmic = true;
   // Only one power of ten lies between the limits, which are 140 N and 8 kN plus a margin.
   panel.curves[0].y = {0.14e3, 2e3, 8e3};
   panel.curves[0].low = panel.curves[0].high = {};
   panel.lines = {{.at = 5e3}, {.at = 7e-9, .vertical = true}, {.at = 5e4}};
-  const std::string script = detail::gnuplot_script(figure, detail::PictureFormat::svg);
+  const std::string script = gnuplot_script(figure, PictureFormat::svg);
   CHECK_THAT(script, Contains("'0.2'") && Contains("'1'") && Contains("'5'"));
   CHECK_THAT(script, Contains("graph 0,first 0.698970004 to") && Contains("first 7,graph 0 to"));
   CHECK_THAT(script, !Contains("first 1.69897"));

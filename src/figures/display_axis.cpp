@@ -11,7 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <string_view>
 
-namespace salebra::detail {
+namespace salebra::figures {
 namespace {
 
 // Units that can take an SI prefix. m² is not among them, since its prefix would be squared, nor is
@@ -62,7 +62,7 @@ double DisplayAxis::display(double value) const {
   return logarithmic ? std::log10(shown) : shown;
 }
 
-DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const double>>& data) {
+DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data) {
   double least = std::numeric_limits<double>::infinity(), most = -least, largest = 0;
   bool any = false;
   const auto see = [&](double value) {
@@ -103,4 +103,4 @@ DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const
   return out;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

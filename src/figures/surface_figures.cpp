@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure of a surface: height map, spectrum with fit, height distribution.
-#include "surface_figure.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
+#include <salebra/figures/figures.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/twin.hpp>
 
-namespace salebra::cli {
+#include "axes.hpp"
+
+namespace salebra::figures {
 namespace {
 
-PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
+Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
   const RadialSpectrum radial = radial_spectrum(spectrum, 6);
-  PlotPanel panel;
+  Panel panel;
   panel.title = "power spectral density";
   panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
   panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
-  panel.legend = PlotLegend::bottom_left;
-  PlotCurve measured{.name = "radial mean", .style = PlotStyle::line_and_points};
+  panel.legend = Legend::bottom_left;
+  Curve measured{.name = "radial mean", .style = Style::line_and_points};
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
@@ -41,9 +43,9 @@ PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hur
       level += modes * radial.psd[k] * std::pow(q, 2 * (1 + hurst.value));
       weight += modes;
     }
-    PlotCurve law{
+    Curve law{
         .name = fmt::format("H = {:.2f} ({:.2f} … {:.2f})", hurst.value, hurst.low, hurst.high),
-        .style = PlotStyle::dashed};
+        .style = Style::dashed};
     for (const double q : {hurst.wavenumber_min, hurst.wavenumber_max}) {
       law.x.push_back(q);
       law.y.push_back(level / weight * std::pow(q, -2 * (1 + hurst.value)));
@@ -53,18 +55,18 @@ PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hur
   return panel;
 }
 
-PlotPanel distribution_panel(const Surface& surface) {
+Panel distribution_panel(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
-  PlotPanel panel;
+  Panel panel;
   panel.title = fmt::format("skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
   panel.x = {.label = "height", .unit = "m"};
   panel.y = {.label = "density", .unit = "1/m"};
   panel.curves.push_back({.name = "heights",
                           .x = histogram.height,
                           .y = histogram.height_density,
-                          .style = PlotStyle::line_and_points});
-  PlotCurve gaussian{.name = "Gaussian", .style = PlotStyle::dashed};
+                          .style = Style::line_and_points});
+  Curve gaussian{.name = "Gaussian", .style = Style::dashed};
   constexpr int points = 121;
   for (int k = 0; k < points; ++k) {
     const double z = -4 + 8.0 * k / (points - 1);
@@ -78,24 +80,6 @@ PlotPanel distribution_panel(const Surface& surface) {
 
 }  // namespace
 
-PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
-                    const PlotAxis& scale) {
-  PlotPanel panel;
-  panel.title = title;
-  panel.x = {.label = "x", .unit = "m"};
-  panel.y = {.label = "y", .unit = "m"};
-  panel.equal_scales = true;
-  PlotImage image;
-  for (Index ix = 0; ix < grid.nx; ++ix)
-    image.x.push_back((static_cast<double>(ix) + 0.5) * grid.dx());
-  for (Index iy = 0; iy < grid.ny; ++iy)
-    image.y.push_back((static_cast<double>(iy) + 0.5) * grid.dy());
-  image.values = values;
-  image.scale = scale;
-  panel.image = std::move(image);
-  return panel;
-}
-
 SurfaceSpectrum spectrum_of(const Surface& surface) {
   SurfaceSpectrum result;
   if (surface.undefined_points() > 0) return result;
@@ -104,7 +88,7 @@ SurfaceSpectrum spectrum_of(const Surface& surface) {
   return result;
 }
 
-Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
+Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure;
   figure.panels.push_back(
       map_panel(surface.grid, surface.heights, "heights", {.label = "height", .unit = "m"}));
@@ -116,12 +100,12 @@ Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
   return figure;
 }
 
-Figure twin_figure(const SurfaceTwin& twin) {
-  PlotPanel panel;
+Figure figure_of(const SurfaceTwin& twin) {
+  Panel panel;
   panel.title = "power spectral density of the surface";
   panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
   panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
-  panel.legend = PlotLegend::bottom_left;
+  panel.legend = Legend::bottom_left;
   panel.curves.push_back({.name = "by all scans, 95 %",
                           .x = twin.spectrum.wavenumber,
                           .y = twin.spectrum.psd,
@@ -130,4 +114,4 @@ Figure twin_figure(const SurfaceTwin& twin) {
   return {.panels = {panel}};
 }
 
-}  // namespace salebra::cli
+}  // namespace salebra::figures

@@ -9,7 +9,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 
-namespace salebra::detail {
+namespace salebra::figures {
 namespace {
 
 constexpr Index max_cells = 1200;
@@ -100,7 +100,7 @@ void check_coordinate(const std::vector<double>& coordinate, Index cells, std::s
 
 }  // namespace
 
-void check_raster(const PlotImage& image) {
+void check_raster(const Image& image) {
   check_coordinate(image.x, image.values.rows(), "image x");
   check_coordinate(image.y, image.values.cols(), "image y");
 }
@@ -117,7 +117,7 @@ std::pair<double, double> finite_range(const Field& values) {
   return {least, most};
 }
 
-Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis& y) {
+Raster rasterise(const Image& image, const DisplayAxis& x, const DisplayAxis& y) {
   const Sampling along_x = sample_axis(image.x, x), along_y = sample_axis(image.y, y);
   Raster out;
   out.x0 = along_x.start;
@@ -129,14 +129,14 @@ Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis
 
   const std::span<const double> data(out.values.data(),
                                      static_cast<std::size_t>(out.values.size()));
-  PlotAxis scale = image.scale;
+  Axis scale = image.scale;
   out.scale = display_axis(scale, {data});
   for (Index i = 0; i < out.values.rows(); ++i)
     for (Index j = 0; j < out.values.cols(); ++j)
       out.values(i, j) = out.scale.display(out.values(i, j));
   const auto [least, most] = finite_range(out.values);
   const bool symmetric =
-      image.palette == PlotPalette::diverging && !image.scale.low && !image.scale.high;
+      image.palette == Palette::diverging && !image.scale.low && !image.scale.high;
   const double reach = std::max(std::abs(least), std::abs(most));
   if (!image.scale.low) out.scale.low = symmetric ? -reach : least;
   if (!image.scale.high) out.scale.high = symmetric ? reach : most;
@@ -149,4 +149,4 @@ Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis
   return out;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

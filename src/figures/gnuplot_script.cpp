@@ -14,7 +14,7 @@
 #include "display_axis.hpp"
 #include "plot_raster.hpp"
 
-namespace salebra::detail {
+namespace salebra::figures {
 namespace {
 
 // Colours of Okabe and Ito, which colour-blind readers can distinguish, and also grey and wine.
@@ -34,31 +34,31 @@ std::string literal(std::string_view text) {
   return out + "'";
 }
 
-const char* palette_stops(PlotPalette palette) {
+const char* palette_stops(Palette palette) {
   switch (palette) {
-    case PlotPalette::diverging:
+    case Palette::diverging:
       return "0 '#053061',1 '#2166ac',2 '#4393c3',3 '#92c5de',4 '#d1e5f0',5 '#f7f7f7',"
              "6 '#fddbc7',7 '#f4a582',8 '#d6604d',9 '#b2182b',10 '#67001f'";
-    case PlotPalette::grey:
+    case Palette::grey:
       return "0 '#ffffff',1 '#000000'";
-    case PlotPalette::sequential:
+    case Palette::sequential:
       break;
   }
   return "0 '#440154',1 '#472d7b',2 '#3b528b',3 '#2c728e',4 '#21918c',5 '#28ae80',"
          "6 '#5ec962',7 '#addc30',8 '#fde725'";
 }
 
-const char* legend_place(PlotLegend legend) {
+const char* legend_place(Legend legend) {
   switch (legend) {
-    case PlotLegend::top_left:
+    case Legend::top_left:
       return "top left Left reverse";
-    case PlotLegend::bottom_right:
+    case Legend::bottom_right:
       return "bottom right";
-    case PlotLegend::bottom_left:
+    case Legend::bottom_left:
       return "bottom left Left reverse";
-    case PlotLegend::right_of_panel:
+    case Legend::right_of_panel:
       return "outside right top Left reverse";
-    case PlotLegend::top_right:
+    case Legend::top_right:
       break;
   }
   return "top right";
@@ -84,7 +84,7 @@ double text_width(std::string_view text) {
          }));
 }
 
-void check(const PlotCurve& curve) {
+void check(const Curve& curve) {
   const std::string field =
       "curve " + (curve.name.empty() ? std::string("without name") : curve.name);
   require(curve.x.size() == curve.y.size(), field,
@@ -100,18 +100,18 @@ void check(const PlotCurve& curve) {
 
 class PanelScript {
  public:
-  PanelScript(const PlotPanel& panel, int number, std::string& out)
+  PanelScript(const Panel& panel, int number, std::string& out)
       : panel_(panel), number_(number), out_(out) {
-    for (const PlotCurve& curve : panel.curves) check(curve);
+    for (const Curve& curve : panel.curves) check(curve);
     if (panel.image) check_raster(*panel.image);
     std::vector<std::span<const double>> x, y;
-    for (const PlotCurve& curve : panel.curves) {
+    for (const Curve& curve : panel.curves) {
       x.emplace_back(curve.x);
       y.emplace_back(curve.y);
       y.emplace_back(curve.high);
       // The limits of error bars do not count on a logarithmic axis: a bar that ends near zero
       // would extend the axis by decades.
-      if (!(panel.y.logarithmic && curve.style == PlotStyle::points)) y.emplace_back(curve.low);
+      if (!(panel.y.logarithmic && curve.style == Style::points)) y.emplace_back(curve.low);
     }
     if (panel.image) {
       x.emplace_back(panel.image->x);
@@ -120,17 +120,20 @@ class PanelScript {
     x_ = display_axis(panel.x, x);
     y_ = display_axis(panel.y, y);
     if (!panel.image) {
-      const bool points = std::ranges::any_of(panel.curves, [](const PlotCurve& curve) {
-        return curve.style == PlotStyle::points || curve.style == PlotStyle::line_and_points;
+      const bool points = std::ranges::any_of(panel.curves, [](const Curve& curve) {
+        return curve.style == Style::points || curve.style == Style::line_and_points;
       });
       set_limits(x_, x, points ? 0.03 : 0);
       set_limits(y_, y, 0.04);
     }
-    if (panel.top.label.empty()) return;
+    if (!panel.second_x) return;
     std::vector<double> top;
     for (const auto& column : x)
-      for (const double value : column) top.push_back(value * panel.top_factor);
-    top_ = display_axis(panel.top, {top});
+      for (const double value : column) top.push_back(value * panel.second_x->factor);
+    top_ = display_axis({.label = panel.second_x->label,
+                         .unit = panel.second_x->unit,
+                         .logarithmic = panel.x.logarithmic},
+                        {top});
   }
 
   void write() {
@@ -175,7 +178,7 @@ class PanelScript {
 
   /// Whether the line lies within the limits of its axis; gnuplot would also draw it outside the
   /// frame.
-  bool seen(const PlotLine& mark) const {
+  bool seen(const ReferenceLine& mark) const {
     const DisplayAxis& axis = mark.vertical ? x_ : y_;
     const double at = axis.display(mark.at);
     return !(at < axis.low.value_or(-HUGE_VAL)) && !(at > axis.high.value_or(HUGE_VAL));
@@ -194,18 +197,18 @@ class PanelScript {
     };
     const auto across = [&](double value) { return frame_width * part(x_, value); };
     const auto up = [&](double value) { return height_ * part(y_, value); };
-    for (const PlotCurve& curve : panel_.curves)
+    for (const Curve& curve : panel_.curves)
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         const double x = across(curve.x[i]), y = up(curve.y[i]);
         segment(x, y, x, y);
         if (!curve.low.empty()) segment(x, std::fmax(0, up(curve.low[i])), x, up(curve.high[i]));
-        if (i == 0 || curve.style == PlotStyle::points) continue;
+        if (i == 0 || curve.style == Style::points) continue;
         segment(across(curve.x[i - 1]), up(curve.y[i - 1]), x, y);
         for (const auto* limit : {&curve.low, &curve.high})
           if (!limit->empty())
             segment(across(curve.x[i - 1]), up((*limit)[i - 1]), x, up((*limit)[i]));
       }
-    for (const PlotLine& mark : panel_.lines)
+    for (const ReferenceLine& mark : panel_.lines)
       if (mark.vertical)
         segment(across(mark.at), 0, across(mark.at), height_);
       else
@@ -222,7 +225,7 @@ class PanelScript {
   /// or below it, where it covers no curve. A name without such a position goes to the legend. The
   /// legend gets the first free corner, or is placed below the panel if no corner is free.
   void place_names() {
-    for (const PlotLine& mark : panel_.lines) {
+    for (const ReferenceLine& mark : panel_.lines) {
       if (mark.vertical || mark.name.empty() || !seen(mark)) continue;
       if (height_ == 0) {
         names_.push_back({&mark, 0.98, 0.5});
@@ -243,18 +246,18 @@ class PanelScript {
       if (!placed) unplaced_.push_back(&mark);
     }
     double rows = double(unplaced_.size()), width = 0;
-    for (const PlotLine* mark : unplaced_) width = std::max(width, text_width(entry_of(*mark)));
-    for (const PlotCurve& curve : panel_.curves)
+    for (const ReferenceLine* mark : unplaced_)
+      width = std::max(width, text_width(entry_of(*mark)));
+    for (const Curve& curve : panel_.curves)
       if (!curve.name.empty()) {
         ++rows;
         width = std::max(width, text_width(curve.name));
       }
     legend_ = legend_place(panel_.legend);
-    if (rows == 0 || height_ == 0 || panel_.legend == PlotLegend::right_of_panel) return;
+    if (rows == 0 || height_ == 0 || panel_.legend == Legend::right_of_panel) return;
     const double wide = width + 55, high = 18 * rows + 8;
-    using enum PlotLegend;
-    for (const PlotLegend corner :
-         {panel_.legend, top_right, top_left, bottom_right, bottom_left}) {
+    using enum Legend;
+    for (const Legend corner : {panel_.legend, top_right, top_left, bottom_right, bottom_left}) {
       const bool right = corner == top_right || corner == bottom_right,
                  top = corner == top_right || corner == top_left;
       if (!free({right ? frame_width - wide : 0, right ? frame_width : wide,
@@ -266,7 +269,7 @@ class PanelScript {
     legend_ = "below Left reverse";
   }
 
-  static std::string entry_of(const PlotLine& mark) {
+  static std::string entry_of(const ReferenceLine& mark) {
     return fmt::format("{}: {:.3g}", mark.name, mark.at);
   }
 
@@ -277,8 +280,7 @@ class PanelScript {
     line("set title {} offset 0,-0.4", literal(panel_.title));
     line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_);
     if (panel_.image) line("set key opaque box lw 0.5");
-    if (unplaced_.empty() &&
-        std::ranges::all_of(panel_.curves, &std::string::empty, &PlotCurve::name))
+    if (unplaced_.empty() && std::ranges::all_of(panel_.curves, &std::string::empty, &Curve::name))
       line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
     write_axis("x", x_);
@@ -287,7 +289,7 @@ class PanelScript {
       line("set xtics nomirror");
       write_axis("x2", top_);
     }
-    for (const PlotLine& mark : panel_.lines) {
+    for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;
       const double at = mark.vertical ? x_.display(mark.at) : y_.display(mark.at);
       if (mark.vertical) {
@@ -310,7 +312,7 @@ class PanelScript {
     for (const auto& [mark, right, offset] : names_)
       line("set label {} at graph {:.2f},first {:.9g} right offset 0,{} tc '#404040' front",
            literal(mark->name), right, y_.display(mark->at), offset);
-    for (const PlotLine* mark : unplaced_)
+    for (const ReferenceLine* mark : unplaced_)
       plots_.push_back(
           fmt::format("NaN with lines dt 3 lw 1 lc '#404040' title {}", literal(entry_of(*mark))));
   }
@@ -327,7 +329,7 @@ class PanelScript {
   }
 
   void write_image() {
-    const PlotImage& image = *panel_.image;
+    const Image& image = *panel_.image;
     const Raster raster = rasterise(image, x_, y_);
     const DisplayAxis& scale = raster.scale;
     line("$image{} << EOD", number_);
@@ -377,10 +379,10 @@ class PanelScript {
     int next = 0;
     std::vector<std::string> bands, drawn;
     for (std::size_t k = 0; k < panel_.curves.size(); ++k) {
-      const PlotCurve& curve = panel_.curves[k];
+      const Curve& curve = panel_.curves[k];
       const int which = curve.color >= 0 ? curve.color : next++ % cycle;
       const char* color = colors[static_cast<std::size_t>(which)];
-      const bool band = !curve.low.empty(), bars = band && curve.style == PlotStyle::points;
+      const bool band = !curve.low.empty(), bars = band && curve.style == Style::points;
       line("$curve{}_{} << EOD", number_, k);
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         fmt::format_to(std::back_inserter(out_), "{:.9g} {:.9g}", x_.display(curve.x[i]),
@@ -417,27 +419,27 @@ class PanelScript {
     return fmt::format("pt {} ps 0.6", markers[static_cast<std::size_t>(which)]);
   }
 
-  static std::string style_of(PlotStyle style, int which) {
+  static std::string style_of(Style style, int which) {
     switch (style) {
-      case PlotStyle::dashed:
+      case Style::dashed:
         return "lines lw 1.8 dt (10,5)";
-      case PlotStyle::dotted:
+      case Style::dotted:
         return "lines lw 1.8 dt (2,4)";
-      case PlotStyle::points:
+      case Style::points:
         return "points " + marker_of(which);
-      case PlotStyle::line_and_points:
+      case Style::line_and_points:
         return "linespoints lw 1.4 " + marker_of(which);
-      case PlotStyle::line:
+      case Style::line:
         break;
     }
     return "lines lw 1.8";
   }
 
-  const PlotPanel& panel_;
+  const Panel& panel_;
   int number_;
   std::string& out_;
   struct PlacedName {
-    const PlotLine* mark;
+    const ReferenceLine* mark;
     /// right: right end of the name, as a fraction of the frame's width; offset: its distance from
     /// the line, in text lines.
     double right, offset;
@@ -451,7 +453,7 @@ class PanelScript {
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
   std::vector<PlacedName> names_;
-  std::vector<const PlotLine*> unplaced_;
+  std::vector<const ReferenceLine*> unplaced_;
   std::string legend_;
   std::vector<std::string> plots_, labels_;
 };
@@ -494,9 +496,9 @@ std::string gnuplot_script(const Figure& figure, PictureFormat format) {
   if (!figure.title.empty()) out += " title " + literal(figure.title);
   out += '\n';
   int number = 0;
-  for (const PlotPanel& panel : figure.panels) PanelScript(panel, ++number, out).write();
+  for (const Panel& panel : figure.panels) PanelScript(panel, ++number, out).write();
   out += "unset multiplot\n";
   return out;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/figures/figure.hpp>
 #include <utility>
 
 #include "display_axis.hpp"
-#include "plot.hpp"
 
-namespace salebra::detail {
+namespace salebra::figures {
 
 /// An image resampled to cells of equal size, in the numbers that the axes of the picture show.
 struct Raster {
@@ -18,11 +18,11 @@ struct Raster {
 };
 
 /// Throws InvalidInput if the numbers of coordinates do not match the size of `values`.
-void check_raster(const PlotImage& image);
+void check_raster(const Image& image);
 
-Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis& y);
+Raster rasterise(const Image& image, const DisplayAxis& x, const DisplayAxis& y);
 
 /// Minimum and maximum of the finite values; (∞, −∞) if no value is finite.
 std::pair<double, double> finite_range(const Field& values);
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

@@ -4,24 +4,27 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <sstream>
 
-#include "atomic_file.hpp"
-#include "child_program.hpp"
 #include "gnuplot_script.hpp"
+#include "io/atomic_file.hpp"
+#include "io/child_program.hpp"
 
-namespace salebra {
+namespace salebra::figures {
 namespace {
 
-detail::PictureFormat format_of(const std::filesystem::path& file) {
+/// Empty for a file of numbers, .json.
+std::optional<PictureFormat> format_of(const std::filesystem::path& file) {
   const std::string suffix = file.extension().string();
-  for (const auto& [known, format] : {std::pair{".png", detail::PictureFormat::png},
-                                      {".svg", detail::PictureFormat::svg},
-                                      {".pdf", detail::PictureFormat::pdf}})
+  if (suffix == ".json") return {};
+  for (const auto& [known, format] : {std::pair{".png", PictureFormat::png},
+                                      {".svg", PictureFormat::svg},
+                                      {".pdf", PictureFormat::pdf}})
     if (suffix == known) return format;
   require(false, "plot", "'" + file.string() + "'",
-          "does not end in the suffix of a picture; use .png, .svg or .pdf");
+          "does not end in the suffix of a picture; use .png, .svg, .pdf or .json");
   return {};
 }
 
@@ -59,42 +62,34 @@ std::string run_gnuplot(const std::filesystem::path& file, std::string_view scri
 // Throws IoError if the end of the picture is missing, since gnuplot does not report every failed
 // write.
 void require_whole(const std::filesystem::path& file, std::string_view picture,
-                   detail::PictureFormat format) {
+                   PictureFormat format) {
   constexpr std::size_t tail = 32;
   const std::string_view end = picture.substr(picture.size() - std::min(picture.size(), tail));
-  const char* const last = format == detail::PictureFormat::png   ? "IEND"
-                           : format == detail::PictureFormat::svg ? "</svg>"
-                                                                  : "%%EOF";
+  const char* const last = format == PictureFormat::png   ? "IEND"
+                           : format == PictureFormat::svg ? "</svg>"
+                                                          : "%%EOF";
   if (end.find(last) == std::string_view::npos)
     fail(file, "gnuplot left the picture incomplete; is the memory full?");
 }
 
 }  // namespace
 
-std::string plot_text(std::string_view plain) {
-  std::string out;
-  for (const char c : plain) {
-    if (std::string_view("_^{}@&~\\").find(c) != std::string_view::npos) out += '\\';
-    out += c;
-  }
-  return out;
-}
-
 void require_plot(const std::filesystem::path& file, const WriteOptions& options) {
-  format_of(file);
+  const bool drawn = format_of(file).has_value();
   require_output(file, options);
-  require_gnuplot(file);
+  if (drawn) require_gnuplot(file);
 }
 
 void write_plot(const std::filesystem::path& file, const Figure& figure,
                 const WriteOptions& options) {
-  const detail::PictureFormat format = format_of(file);
-  require_gnuplot(file);
+  const std::optional<PictureFormat> format = format_of(file);
+  if (format) require_gnuplot(file);
   detail::AtomicFile target(file, options);
-  const std::string picture = run_gnuplot(file, detail::gnuplot_script(figure, format));
-  require_whole(file, picture, format);
-  target.write(picture);
+  const std::string content =
+      format ? run_gnuplot(file, gnuplot_script(figure, *format)) : figure_json(figure);
+  if (format) require_whole(file, content, *format);
+  target.write(content);
   target.commit();
 }
 
-}  // namespace salebra
+}  // namespace salebra::figures

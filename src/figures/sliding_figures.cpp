@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of `salebra sliding`: friction over velocity and amplitude, regimes, the motion of a
 // slider.
-#include "sliding_figure.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <salebra/analysis/sliding.hpp>
+#include <salebra/figures/figures.hpp>
 
-#include "figures.hpp"
+#include "axes.hpp"
 
-namespace salebra::cli {
+namespace salebra::figures {
 
-Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction) {
-  PlotCurve mean{.name = "computed"}, slow{.name = "static friction and Γv"};
-  slow.style = PlotStyle::dashed;
-  PlotCurve total{.name = "whole"}, opening{.name = "springs that open"};
+Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
+  Curve mean{.name = "computed"}, slow{.name = "static friction and Γv"};
+  slow.style = Style::dashed;
+  Curve total{.name = "whole"}, opening{.name = "springs that open"};
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
-    for (PlotCurve* curve : {&mean, &slow, &total, &opening}) curve->x.push_back(velocity);
+    for (Curve* curve : {&mean, &slow, &total, &opening}) curve->x.push_back(velocity);
     mean.y.push_back(state.friction_coefficient);
     const double linear =
         state.static_friction_coefficient + state.low_speed_damping * velocity / state.mean_force;
@@ -26,30 +26,30 @@ Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction) 
     total.y.push_back(state.relaxation_work + state.slip_work);
     opening.y.push_back(state.relaxation_work);
   }
-  const PlotAxis x = axis_of("velocity", spans_decades(mean.x));
+  const Axis x = axis_of("velocity", spans_decades(mean.x));
   Figure figure;
   figure.columns = 2;
   figure.panels.push_back({.title = "Friction coefficient of steady sliding",
                            .x = x,
                            .y = {.label = "mean tangential over mean normal force"},
-                           .legend = PlotLegend::top_left});
+                           .legend = Legend::top_left});
   figure.panels.back().curves = {mean, slow};
   figure.panels.push_back({.title = "Energy dissipated in a normal cycle",
                            .x = x,
                            .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(total.y)},
-                           .legend = PlotLegend::top_left});
+                           .legend = Legend::top_left});
   figure.panels.back().curves = {total, opening};
   return figure;
 }
 
-Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingProblem& problem) {
+Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& problem) {
   const bool relative = !problem.velocity_ratios.empty();
   const std::vector<double>& along = relative ? problem.velocity_ratios : problem.velocities;
   const std::vector<double>& amplitudes = problem.normal_amplitude;
   Figure figure;
   figure.columns = 2;
-  const auto panel = [&](const char* title, PlotAxis scale, double SteadySliding::*member) {
-    PlotImage image{.x = along, .y = amplitudes, .scale = std::move(scale)};
+  const auto panel = [&](const char* title, Axis scale, double SteadySliding::*member) {
+    Image image{.x = along, .y = amplitudes, .scale = std::move(scale)};
     image.values = Field(Index(along.size()), Index(amplitudes.size()));
     for (std::size_t i = 0; i < along.size(); ++i)
       for (std::size_t j = 0; j < amplitudes.size(); ++j) {
@@ -70,53 +70,57 @@ Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingPr
   return figure;
 }
 
-Figure regime_figure(const RegimeMap& map, double omega) {
+Figure figure_of(const RegimeMap& map, double omega) {
   Figure figure;
-  PlotPanel& panel = figure.panels.emplace_back();
+  Panel& panel = figure.panels.emplace_back();
   panel.title = "Loss of a slow oscillation over that without slip";
   const auto axis = [](const char* label, const char* unit, const std::vector<double>& values) {
     const auto [low, high] = std::ranges::minmax(values);
-    return PlotAxis{label, unit, spans_decades(values), low, high};
+    return Axis{.label = label,
+                .unit = unit,
+                .logarithmic = spans_decades(values),
+                .low = low,
+                .high = high};
   };
   panel.x = axis("velocity v", "m/s", map.velocity);
   panel.y = axis("excursion X", "m", map.excursion);
   panel.image =
-      PlotImage{.x = map.velocity,
-                .y = map.excursion,
-                .values = map.loss_ratio,
-                .scale = {.label = "W / W(no slip)", .logarithmic = true, .low = 1, .high = 1e3}};
-  PlotCurve no_slip{.name = "no slip below", .x = map.velocity, .color = 6};
-  PlotCurve sliding{.name = "sliding above", .x = map.velocity, .color = 1};
-  PlotCurve cycle{.name = "one normal cycle", .x = map.velocity, .color = 7};
-  cycle.style = PlotStyle::dashed;
+      Image{.x = map.velocity,
+            .y = map.excursion,
+            .values = map.loss_ratio,
+            .scale = {.label = "W / W(no slip)", .logarithmic = true, .low = 1, .high = 1e3}};
+  Curve no_slip{.name = "no slip below", .x = map.velocity, .color = 6};
+  Curve sliding{.name = "sliding above", .x = map.velocity, .color = 1};
+  Curve cycle{.name = "one normal cycle", .x = map.velocity, .color = 7};
+  cycle.style = Style::dashed;
   for (std::size_t i = 0; i < map.velocity.size(); ++i) {
     cycle.y.push_back(2 * std::numbers::pi * map.velocity[i] / omega);
     no_slip.y.push_back(map.no_slip_excursion[i] > cycle.y.back() ? map.no_slip_excursion[i]
                                                                   : ContactParameters::unknown);
     sliding.y.push_back(std::max(map.sliding_excursion, cycle.y.back()));
   }
-  PlotCurve critical{.name = "v_c", .style = PlotStyle::dotted, .color = 6};
+  Curve critical{.name = "v_c", .style = Style::dotted, .color = 6};
   if (map.critical_velocity > *panel.x.low && map.critical_velocity < *panel.x.high) {
     critical.x.assign(2, map.critical_velocity);
     critical.y = {*panel.y.low, *panel.y.high};
   }
-  for (PlotCurve* curve : {&no_slip, &sliding, &cycle, &critical})
+  for (Curve* curve : {&no_slip, &sliding, &cycle, &critical})
     if (std::ranges::any_of(curve->y, [](double y) { return std::isfinite(y); }))
       panel.curves.push_back(*curve);
-  panel.legend = PlotLegend::bottom_right;
+  panel.legend = Legend::bottom_right;
   return figure;
 }
 
-Figure slider_figure(const SliderMotion& full, const SliderMotion& averaged, double stiffness) {
+Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double stiffness) {
   const auto curve = [](const SliderMotion& motion, const char* name) {
-    PlotCurve over_time{.name = name};
+    Curve over_time{.name = name};
     for (const double time : motion.time) over_time.x.push_back(time - motion.time.front());
     return over_time;
   };
-  PlotCurve velocity = curve(full, "full equation"), force = velocity;
-  PlotCurve averaged_velocity = curve(averaged, "averaged equation");
-  averaged_velocity.style = PlotStyle::dashed;
-  PlotCurve averaged_force = averaged_velocity;
+  Curve velocity = curve(full, "full equation"), force = velocity;
+  Curve averaged_velocity = curve(averaged, "averaged equation");
+  averaged_velocity.style = Style::dashed;
+  Curve averaged_force = averaged_velocity;
   velocity.y = full.slider_velocity, averaged_velocity.y = averaged.slider_velocity;
   for (const double offset : full.slider_offset) force.y.push_back(-stiffness * offset);
   for (const double offset : averaged.slider_offset)
@@ -126,14 +130,14 @@ Figure slider_figure(const SliderMotion& full, const SliderMotion& averaged, dou
   figure.panels.push_back({.title = "Velocity of the slider",
                            .x = axis_of("time"),
                            .y = {.label = "velocity", .unit = "m/s"},
-                           .legend = PlotLegend::top_left});
+                           .legend = Legend::top_left});
   figure.panels.back().curves = {velocity, averaged_velocity};
   figure.panels.push_back({.title = "Force of the spring",
                            .x = axis_of("time"),
                            .y = {.label = "k(Vt − x)", .unit = "N"},
-                           .legend = PlotLegend::top_left});
+                           .legend = Legend::top_left});
   figure.panels.back().curves = {force, averaged_force};
   return figure;
 }
 
-}  // namespace salebra::cli
+}  // namespace salebra::figures

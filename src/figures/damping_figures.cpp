@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of the damping commands: contact, cycle, damping curve, stress, friction and damper maps.
-#include "figures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/stress_map.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/figures/figures.hpp>
+#include <salebra/surface/lay.hpp>
 
-#include "result_tables.hpp"
+#include "axes.hpp"
 
-namespace salebra::cli {
+namespace salebra::figures {
 namespace {
 
 using std::numbers::pi;
@@ -48,7 +52,7 @@ Passage passage(const SampledMotion& path, double level, bool rising, std::size_
 }
 
 // An axis whose range is a little larger than that of the values.
-PlotAxis roomy(PlotAxis axis, const std::vector<double>& values) {
+Axis roomy(Axis axis, const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   axis.low = low - 0.05 * (high - low);
   axis.high = high + 0.05 * (high - low);
@@ -56,14 +60,14 @@ PlotAxis roomy(PlotAxis axis, const std::vector<double>& values) {
   return axis;
 }
 
-PlotPanel path_panel(const SampledMotion& path) {
-  PlotPanel panel;
+Panel path_panel(const SampledMotion& path) {
+  Panel panel;
   panel.title = "A point of the body and the spring it meets";
   panel.x = roomy({.label = "x", .unit = "m"}, path.displacement);
   panel.y = {.label = "height over the undeformed surface", .unit = "m"};
   const auto [low, high] = std::ranges::minmax(path.indentation);
   const double level = 0.5 * (low + high);
-  PlotCurve orbit{.name = "path of the point"};
+  Curve orbit{.name = "path of the point"};
   orbit.x = path.displacement;
   for (const double indentation : path.indentation) orbit.y.push_back(level - indentation);
   panel.curves.push_back(orbit);
@@ -73,36 +77,19 @@ PlotPanel path_panel(const SampledMotion& path) {
     panel.curves.push_back({.name = "in contact: x_1 to x_2",
                             .x = {touch.x, leave.x},
                             .y = {0, 0},
-                            .style = PlotStyle::line_and_points});
+                            .style = Style::line_and_points});
   }
   panel.lines.push_back({.at = 0});
-  panel.legend = PlotLegend::top_left;
+  panel.legend = Legend::top_left;
   panel.y.low = -0.55 * (high - low);
   panel.y.high = 0.8 * (high - low);
   return panel;
 }
 
-}  // namespace
-
-PlotAxis axis_of(std::string_view name, bool logarithmic) {
-  const Quantity quantity = quantity_of(std::string(name));
-  const std::string unit(si_unit(quantity.dimension));
-  return {.label = plot_text(quantity.long_name.empty() ? name : quantity.long_name),
-          .unit = unit == "1" ? "" : unit,
-          .logarithmic = logarithmic};
-}
-
-bool spans_decades(const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  return low > 0 && high > 30 * low;
-}
-
-namespace {
-
 /// The springs of an axisymmetric foundation, drawn as coils side by side.
-PlotCurve coils_of(const IndenterLaw& law, double indentation) {
+Curve coils_of(const IndenterLaw& law, double indentation) {
   const double edge = law.contact_radius(indentation);
-  PlotCurve coils{.name = "springs", .color = 7};
+  Curve coils{.name = "springs", .color = 7};
   for (int i = -24; i <= 24; ++i) {
     const double x = 1.8 * edge * i / 25;
     const double depth = std::abs(x) <= edge ? law.profile().image(std::abs(x)) - indentation : 0.0;
@@ -112,8 +99,8 @@ PlotCurve coils_of(const IndenterLaw& law, double indentation) {
   return coils;
 }
 
-PlotCurve force_of(const IndenterLaw& law, double most) {
-  PlotCurve force{.x = {}, .y = {}};
+Curve force_of(const IndenterLaw& law, double most) {
+  Curve force{.x = {}, .y = {}};
   for (int i = 0; i <= 200; ++i) {
     force.x.push_back(most * i / 200);
     force.y.push_back(law.force(most * i / 200));
@@ -123,14 +110,14 @@ PlotCurve force_of(const IndenterLaw& law, double most) {
 
 }  // namespace
 
-Figure contact_figure(const IndenterLaw& law, double indentation) {
+Figure figure_of(const IndenterLaw& law, double indentation) {
   constexpr int points = 400;
   const double edge = law.contact_radius(indentation);
   const double reach = std::min(1.8 * edge, law.profile().max_radius());
-  PlotCurve body{.name = "indenter", .color = 6}, surface{.name = "surface", .color = 0};
-  PlotCurve image{.name = "image g(|x|) − δ", .color = 6},
+  Curve body{.name = "indenter", .color = 6}, surface{.name = "surface", .color = 0};
+  Curve image{.name = "image g(|x|) − δ", .color = 6},
       springs{.name = "ends of the springs", .color = 0};
-  PlotCurve pressure{.color = 1};
+  Curve pressure{.color = 1};
   for (int i = -points; i <= points; ++i) {
     const double r = 1.8 * edge * i / points, distance = std::abs(r);
     surface.x.push_back(r);
@@ -152,17 +139,17 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
   }
   Figure figure;
   figure.columns = 2;
-  const PlotAxis height = {.label = "height", .unit = "m"};
+  const Axis height = {.label = "height", .unit = "m"};
   figure.panels.push_back({.title = "(a) contact with the half-space",
                            .x = {.label = "r", .unit = "m"},
                            .y = height,
-                           .legend = PlotLegend::bottom_right});
+                           .legend = Legend::bottom_right});
   figure.panels.back().curves = {surface, body};
   figure.panels.push_back(
       {.title = "(b) one-dimensional image, Eq. (3)",
        .x = {.label = "x", .unit = "m"},
        .y = {.label = "height", .unit = "m", .low = -1.5 * indentation, .high = 1.8 * indentation},
-       .legend = PlotLegend::top_left});
+       .legend = Legend::top_left});
   figure.panels.back().curves = {coils_of(law, indentation), springs, image};
   figure.panels.push_back({.title = "(c) pressure",
                            .x = {.label = "r", .unit = "m"},
@@ -173,11 +160,11 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
                            .y = {.label = "F", .unit = "N"}});
   figure.panels.back().curves = {
       force_of(law, std::min(1.5 * indentation, law.highest_indentation())),
-      {.x = {indentation}, .y = {law.force(indentation)}, .style = PlotStyle::points, .color = 1}};
+      {.x = {indentation}, .y = {law.force(indentation)}, .style = Style::points, .color = 1}};
   return figure;
 }
 
-Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
+Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
   Figure figure;
   figure.columns = 3;
   figure.panels.push_back(path_panel(path));
@@ -186,11 +173,11 @@ Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
        .x = roomy({.label = "x", .unit = "m"}, path.displacement),
        .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
   figure.panels.back().curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}};
-  PlotPanel& work = figure.panels.emplace_back();
+  Panel& work = figure.panels.emplace_back();
   work.title = "Energy lost, W = " + format_quantity(loss.work_per_cycle, Dimension::energy, 4) +
                " a period";
   const double start = path.time.front();
-  PlotCurve lost{.x = path.time, .y = loss.dissipated, .color = 2};
+  Curve lost{.x = path.time, .y = loss.dissipated, .color = 2};
   for (double& time : lost.x) time = (time - start) / path.period();
   work.x = {.label = "t / period"};
   work.y = {.label = "energy lost since the start", .unit = "J"};
@@ -198,22 +185,22 @@ Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
   return figure;
 }
 
-Figure damping_figure(const std::string& quantity, const std::vector<double>& values,
-                      const std::vector<DampingResult>& results) {
-  const PlotAxis x = axis_of(quantity, spans_decades(values));
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<DampingResult>& results) {
+  const Axis x = axis_of(quantity, spans_decades(values));
   Figure figure;
   figure.columns = 3;
-  std::vector<PlotCurve> works, ratios, constants;
+  std::vector<Curve> works, ratios, constants;
   const std::size_t directions = results.size() / values.size();
   for (std::size_t d = 0; d < directions; ++d) {
     const std::string way =
         directions > 1 ? ", " + direction_in_words(results[d * values.size()].direction) : "";
-    PlotCurve exact{.name = "W" + way, .x = values},
+    Curve exact{.name = "W" + way, .x = values},
         small{.name = "small-amplitude form" + way, .x = values};
-    small.style = PlotStyle::dashed;
-    PlotCurve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
+    small.style = Style::dashed;
+    Curve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
     if (directions > 1)
-      for (PlotCurve* curve : {&ratio, &constant}) {
+      for (Curve* curve : {&ratio, &constant}) {
         curve->name = direction_in_words(results[d * values.size()].direction);
         curve->color = -1;
       }
@@ -232,7 +219,7 @@ Figure damping_figure(const std::string& quantity, const std::vector<double>& va
       {.title = "Energy dissipated in a cycle",
        .x = x,
        .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(works.front().y)},
-       .legend = PlotLegend::top_left});
+       .legend = Legend::top_left});
   figure.panels.back().curves = works;
   figure.panels.push_back(
       {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}});
@@ -264,13 +251,13 @@ double colour_limit(const Field& shear) {
 }
 
 /// The shear stress over the radius at one phase.
-PlotPanel section_of(const OscillatingStress& stress, double angle, double most, double limit,
-                     const char* title) {
+Panel section_of(const OscillatingStress& stress, double angle, double most, double limit,
+                 const char* title) {
   const double least = stress.min_contact_radius();
-  PlotPanel panel{.title = title,
-                  .x = {.label = "r", .unit = "m", .low = 0, .high = 1.05 * most},
-                  .y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit}};
-  PlotCurve curve{.color = 1};
+  Panel panel{.title = title,
+              .x = {.label = "r", .unit = "m", .low = 0, .high = 1.05 * most},
+              .y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit}};
+  Curve curve{.color = 1};
   const double here = stress.contact_radius(angle);
   // Points are dense on both sides of the smallest contact radius, where the stress has a
   // logarithmic singularity, and towards the edge.
@@ -292,15 +279,15 @@ PlotPanel section_of(const OscillatingStress& stress, double angle, double most,
 
 }  // namespace
 
-Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillation& motion,
-                     const StressMap& map) {
+Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& motion,
+                 const StressMap& map) {
   const OscillatingStress stress(law, indentation, motion);
   const double most = std::ranges::max(map.contact_radius);
   const std::vector<double> cycle = scaled(map.angle, 1 / (2 * pi));
-  const PlotAxis radius = {.label = "r", .unit = "m"};
-  const PlotAxis time = {.label = "ωt / 2π"};
+  const Axis radius = {.label = "r", .unit = "m"};
+  const Axis time = {.label = "ωt / 2π"};
   const double limit = colour_limit(map.shear);
-  PlotCurve edge{.x = map.contact_radius, .y = cycle, .color = 6};
+  Curve edge{.x = map.contact_radius, .y = cycle, .color = 6};
   const auto in_contact = [&](const Field& field) {
     Field image = field.transpose();
     for (Index i = 0; i < image.rows(); ++i)
@@ -313,27 +300,27 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
 
   Figure figure;
   figure.columns = 2;
-  PlotPanel& shear = figure.panels.emplace_back();
+  Panel& shear = figure.panels.emplace_back();
   shear.title = "(a) tangential stress τ";
   shear.x = radius;
   shear.y = time;
-  shear.image = PlotImage{.x = map.radial_position,
-                          .y = cycle,
-                          .values = in_contact(map.shear),
-                          .scale = {.label = "τ", .unit = "Pa", .low = -limit, .high = limit},
-                          .palette = PlotPalette::diverging};
+  shear.image = Image{.x = map.radial_position,
+                      .y = cycle,
+                      .values = in_contact(map.shear),
+                      .scale = {.label = "τ", .unit = "Pa", .low = -limit, .high = limit},
+                      .palette = Palette::diverging};
   shear.curves.push_back(edge);
 
   figure.panels.push_back(
       section_of(stress, pi / 3, most, limit, "(b) τ(r) while pulling out, ωt/2π = 1/6"));
-  PlotPanel& pressure = figure.panels.emplace_back();
+  Panel& pressure = figure.panels.emplace_back();
   pressure.title = "(c) pressure p";
   pressure.x = radius;
   pressure.y = time;
-  pressure.image = PlotImage{.x = map.radial_position,
-                             .y = cycle,
-                             .values = in_contact(map.contact_pressure),
-                             .scale = {.label = "p", .unit = "Pa"}};
+  pressure.image = Image{.x = map.radial_position,
+                         .y = cycle,
+                         .values = in_contact(map.contact_pressure),
+                         .scale = {.label = "p", .unit = "Pa"}};
   pressure.curves.push_back(edge);
   figure.panels.push_back(
       section_of(stress, -pi / 3, most, limit, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
@@ -341,29 +328,25 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
   return figure;
 }
 
-Figure friction_figure(const FrictionMap& map) {
-  Figure figure;
-  figure.columns = 3;
-  const PlotAxis number = {.label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
-  PlotPanel& panel = figure.panels.emplace_back();
+Figure figure_of(const FrictionMap& map) {
+  const Axis number = {.label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
+  Panel panel, missing, parts;
   panel.title = "(a) W(μ) / W(∞)";
   panel.x = number;
   panel.y = {.label = "phase φ_0 (°)"};
-  panel.image = PlotImage{.x = map.friction_number,
-                          .y = scaled(map.phase, degrees),
-                          .values = map.loss_ratio,
-                          .scale = {.label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
-                          .contours = {0.5, 0.9, 0.95, 0.99}};
+  panel.image = Image{.x = map.friction_number,
+                      .y = scaled(map.phase, degrees),
+                      .values = map.loss_ratio,
+                      .scale = {.label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
+                      .contours = {0.5, 0.9, 0.95, 0.99}};
 
-  PlotPanel& missing = figure.panels.emplace_back();
   missing.title = "(b) how far the result for μ = ∞ is off";
   missing.x = number;
   missing.y = {.label = "|1 − W(μ) / W(∞)|", .logarithmic = true, .low = 1e-4, .high = 2};
-  missing.legend = PlotLegend::top_right;
-  PlotPanel& parts = figure.panels.emplace_back();
+  missing.legend = Legend::top_right;
   parts.x = number;
   parts.y = {.label = "share of W(∞)"};
-  parts.legend = PlotLegend::bottom_right;
+  parts.legend = Legend::bottom_right;
   const auto nearest = [&](double angle) {
     const auto distance = [&](double phase) { return std::abs(phase - angle); };
     return static_cast<Index>(std::ranges::min_element(map.phase, {}, distance) -
@@ -375,7 +358,7 @@ Figure friction_figure(const FrictionMap& map) {
     if (std::ranges::find(columns, j) == columns.end()) columns.push_back(j);
   }
   for (const Index j : columns) {
-    PlotCurve curve{
+    Curve curve{
         .name = fmt::format("φ_0 = {:.0f}°", map.phase[static_cast<std::size_t>(j)] * degrees),
         .x = map.friction_number};
     for (Index i = 0; i < map.loss_ratio.rows(); ++i)
@@ -385,37 +368,37 @@ Figure friction_figure(const FrictionMap& map) {
   const Index j = columns.back();
   parts.title = fmt::format("(c) parts of the loss at φ_0 = {:.0f}°",
                             map.phase[static_cast<std::size_t>(j)] * degrees);
-  PlotCurve relaxation{.name = "springs that open", .x = map.friction_number};
-  PlotCurve slip{.name = "slip in permanent contact", .x = map.friction_number};
-  PlotCurve sum{.name = "sum", .x = map.friction_number, .style = PlotStyle::dashed, .color = 6};
+  Curve relaxation{.name = "springs that open", .x = map.friction_number};
+  Curve slip{.name = "slip in permanent contact", .x = map.friction_number};
+  Curve sum{.name = "sum", .x = map.friction_number, .style = Style::dashed, .color = 6};
   for (Index i = 0; i < map.loss_ratio.rows(); ++i) {
     relaxation.y.push_back(map.relaxation_ratio(i, j));
     slip.y.push_back(map.slip_ratio(i, j));
     sum.y.push_back(map.loss_ratio(i, j));
   }
   parts.curves = {relaxation, slip, sum};
-  return figure;
+  return {.panels = {panel, missing, parts}, .columns = 3};
 }
 
 namespace {
 
-PlotPanel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
-  PlotPanel panel;
+Panel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
+  Panel panel;
   panel.title = "Damping constant γ";
   const Index amplitudes = map.damping_constant.rows(), frequencies = map.damping_constant.cols();
-  const PlotAxis amplitude = {.label = "normal amplitude u_z",
-                              .unit = "m",
-                              .logarithmic = spans_decades(map.normal_amplitude)};
+  const Axis amplitude = {.label = "normal amplitude u_z",
+                          .unit = "m",
+                          .logarithmic = spans_decades(map.normal_amplitude)};
   const std::vector<double> hertz = scaled(map.angular_frequency, 1 / (2 * pi));
-  const PlotAxis frequency = {
+  const Axis frequency = {
       .label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(hertz)};
   if (amplitudes > 1 && frequencies > 1) {
     panel.x = frequency;
     panel.y = amplitude;
-    panel.image = PlotImage{.x = hertz,
-                            .y = map.normal_amplitude,
-                            .values = map.damping_constant.transpose(),
-                            .scale = {.label = "γ", .unit = "N s/m", .logarithmic = true}};
+    panel.image = Image{.x = hertz,
+                        .y = map.normal_amplitude,
+                        .values = map.damping_constant.transpose(),
+                        .scale = {.label = "γ", .unit = "N s/m", .logarithmic = true}};
     if (falling_slope) {
       panel.title =
           fmt::format("Steady sliding is stable where γ > b = {:.4g} N s/m", *falling_slope);
@@ -426,8 +409,7 @@ PlotPanel damper_panel(const DamperMap& map, std::optional<double> falling_slope
   panel.y = {.label = "γ", .unit = "N s/m"};
   const bool over_amplitude = amplitudes > 1;
   panel.x = over_amplitude ? amplitude : frequency;
-  PlotCurve curve{.x = over_amplitude ? map.normal_amplitude : hertz,
-                  .style = PlotStyle::line_and_points};
+  Curve curve{.x = over_amplitude ? map.normal_amplitude : hertz, .style = Style::line_and_points};
   for (Index i = 0; i < amplitudes; ++i)
     for (Index j = 0; j < frequencies; ++j) curve.y.push_back(map.damping_constant(i, j));
   panel.y.logarithmic = spans_decades(curve.y);
@@ -436,14 +418,14 @@ PlotPanel damper_panel(const DamperMap& map, std::optional<double> falling_slope
   return panel;
 }
 
-PlotPanel decay_panel(const OscillatorDecay& decay) {
-  PlotPanel panel;
+Panel decay_panel(const OscillatorDecay& decay) {
+  Panel panel;
   panel.title = fmt::format("Free decay: damping ratio {:.3g}", decay.damping_ratio);
   const double ratio = decay.damping_ratio, omega = decay.natural_frequency;
   const double duration = std::min(4 * decay.decay_time, 60 * 2 * pi / omega);
   panel.x = {.label = "time", .unit = "s"};
   panel.y = {.label = "x / x_0"};
-  PlotCurve path{.name = "x"}, bound{.name = "exp(−t/decay time)", .style = PlotStyle::dashed};
+  Curve path{.name = "x"}, bound{.name = "exp(−t/decay time)", .style = Style::dashed};
   for (int i = 0; i <= 4000; ++i) {
     const double time = duration * i / 4000;
     path.x.push_back(time);
@@ -467,12 +449,10 @@ PlotPanel decay_panel(const OscillatorDecay& decay) {
 }
 
 /// The smallest amplitude that stabilises sliding, over the frequency.
-PlotPanel border_panel(const std::vector<double>& omega, const std::vector<double>& least) {
-  PlotCurve border{.x = scaled(omega, 1 / (2 * pi)),
-                   .y = least,
-                   .style = PlotStyle::line_and_points,
-                   .color = 1};
-  PlotPanel panel;
+Panel border_panel(const std::vector<double>& omega, const std::vector<double>& least) {
+  Curve border{
+      .x = scaled(omega, 1 / (2 * pi)), .y = least, .style = Style::line_and_points, .color = 1};
+  Panel panel;
   panel.title = "Least amplitude that stabilises";
   panel.x = {.label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(border.x)};
   panel.y = {.label = "normal amplitude u_z", .unit = "m", .logarithmic = true};
@@ -482,8 +462,8 @@ PlotPanel border_panel(const std::vector<double>& omega, const std::vector<doubl
 
 }  // namespace
 
-Figure damper_figure(const DamperSolution& answer, std::optional<double> falling_slope,
-                     const std::vector<double>& angular_frequency) {
+Figure figure_of(const DamperSolution& answer, std::optional<double> falling_slope,
+                 const std::vector<double>& angular_frequency) {
   Figure figure;
   if (answer.map.damping_constant.size() > 1)
     figure.panels.push_back(damper_panel(answer.map, falling_slope));
@@ -495,4 +475,4 @@ Figure damper_figure(const DamperSolution& answer, std::optional<double> falling
   return figure;
 }
 
-}  // namespace salebra::cli
+}  // namespace salebra::figures

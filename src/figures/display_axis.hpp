@@ -2,14 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <salebra/figures/figure.hpp>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "plot.hpp"
-
-namespace salebra::detail {
+namespace salebra::figures {
 
 /// An axis in the numbers that the picture shows: with an SI prefix and, if it is logarithmic, as
 /// logarithms.
@@ -28,6 +27,6 @@ struct DisplayAxis {
 
 /// The axis for these data. Throws InvalidInput for a logarithmic axis with a limit <= 0, or with
 /// data of which none is > 0.
-DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const double>>& data);
+DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data);
 
-}  // namespace salebra::detail
+}  // namespace salebra::figures

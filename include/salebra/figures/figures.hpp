@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/figures/figure.hpp>
+#include <salebra/surface/spectrum.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace salebra {
+class IndenterLaw;
+struct DamperSolution;
+struct DampingResult;
+struct ExponentialFit;
+struct ForceCurve;
+struct FrictionMap;
+struct JointLoss;
+struct NormalContactState;
+struct OscillationOutcome;
+struct ParameterLists;
+struct RegimeMap;
+struct SliderMotion;
+struct SlidingPoint;
+struct SlidingProblem;
+struct StressMap;
+struct StudyResult;
+struct Surface;
+struct SurfaceTwin;
+struct TrajectoryDamping;
+struct ViscoelasticLoss;
+}  // namespace salebra
+
+/// The figures of results: what is drawn of each, for every renderer.
+///     const Figure figure = figure_of(curve, fit);
+/// The numbers in a figure are those of the result. Throws InvalidInput for a result without
+/// anything to draw. Cost: that of copying the numbers, unless stated otherwise.
+namespace salebra::figures {
+
+/// The spectrum of a surface. A spectrum needs every point, so it is empty if a point is undefined.
+struct SurfaceSpectrum {
+  std::optional<PowerSpectrum> spectrum;
+  HurstEstimate hurst;  ///< estimated from `spectrum`
+};
+
+/// Cost: a Fourier transform.
+SurfaceSpectrum spectrum_of(const Surface& surface);
+
+/// A surface in three panels: the map of its heights; its radial power spectral density with the
+/// fitted power law; the distribution of its heights with the Gaussian of the same mean and rms
+/// height. The second panel is left out if there is no spectrum or if it is zero.
+Figure figure_of(const Surface& surface, const SurfaceSpectrum& of);
+
+/// The power spectral density of a surface twin, which several scans have in common, with its 95 %
+/// band.
+Figure figure_of(const SurfaceTwin& twin);
+
+/// Pressure over mean gap with the fitted law and the window of the fit. Area and stiffness too, if
+/// the curve has them. Throws InvalidInput for a curve without a converged sample.
+Figure figure_of(const ForceCurve& curve, const std::optional<ExponentialFit>& fit);
+
+/// Pressure over indentation of loading and unloading; pressures may be tensile.
+Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading);
+
+/// Maps of pressure and gap.
+Figure figure_of(const Grid2D& grid, const NormalContactState& state);
+
+/// An indenter at rest (Fig. 1 of the paper): its profile and the deformed surface, the
+/// one-dimensional image on its springs, the pressure, and force F(δ) with contact radius a(δ).
+Figure figure_of(const IndenterLaw& law, double indentation);
+
+/// One period of a motion (Fig. 2 of the paper): the path of a point of the body with the spring
+/// that it carries and releases, the loop F_x(x), and the cumulative loss W(t).
+Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss);
+
+/// The loss W and its small-amplitude formula, their ratio and, if known, the damping constant γ,
+/// over the quantity of which `values` has several values; results: for each direction one of each
+/// value.
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<DampingResult>& results);
+
+/// Fig. 4 of the paper: shear stress τ and pressure p over radius and phase, and τ(r) at two
+/// phases, one while the indenter is pressed in and one while it is pulled out.
+Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& motion,
+                 const StressMap& map);
+
+/// The loss with friction divided by the loss without slip, W(μ)/W(∞), over the friction number M =
+/// μu_zK/(u_xK_t) and the phase φ0, with lines at which it deviates from 1 by 1, 5 and 10 %.
+/// Further panels: this deviation over M; the parts of slip and relaxation.
+Figure figure_of(const FrictionMap& map);
+
+/// Damping constant γ over u_z and ω, with the limit of stable sliding if a falling slope of
+/// friction is given; a line if only one of u_z and ω varies. Further panels: free decay of the
+/// oscillator; the smallest stabilising amplitude over the frequency. A result that is a single
+/// number has no panel. angular_frequency: rad/s, of the stabilising amplitudes.
+Figure figure_of(const DamperSolution& answer, std::optional<double> falling_slope,
+                 const std::vector<double>& angular_frequency);
+
+/// Friction and losses over the velocity, for one amplitude.
+Figure figure_of(const std::vector<SlidingPoint>& points, double friction);
+/// Mean friction and its derivative with respect to the velocity, over velocity and normal
+/// amplitude.
+Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& problem);
+/// Loss with slip divided by the loss without slip, over velocity and excursion, with the borders
+/// of the regimes (no slip, partial slip, lifts off, sliding). angular_frequency: rad/s.
+Figure figure_of(const RegimeMap& map, double angular_frequency);
+/// Velocity and spring force of a slider over the time, by the full and by the averaged equation.
+/// stiffness: of its spring, N/m.
+Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double stiffness);
+
+/// The loss of a joint over the tangential force, and the loop of its largest motion with the
+/// backbone. displacement, force: of the loop, m and N.
+Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
+                 const std::vector<double>& force);
+
+/// Fig. 3 of the paper: for each outcome the map of the cells (black if always in contact, grey if in
+/// contact during a part of the cycle) and the work over the time, at equal frequencies W(t) divided
+/// by the loss of Eq. (12), under a drag the energy released so far divided by the loss of Eq. (15),
+/// and without a loss W(t) divided by ½K_t u²; with friction also the loops of force over
+/// displacement. names: of the outcomes.
+Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
+                 const std::vector<std::string>& names);
+
+/// The losses on a viscoelastic body and the parts of its complex modulus, over the quantity of which
+/// `values` has one for each loss.
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<ViscoelasticLoss>& losses);
+
+/// Gap, area, stiffness and damping of all models over the pressure, with 95 % bands, and the
+/// damping constants of the study's table with their errors. A quantity that no model computes has
+/// no panel. One point of the parameter grid gives a square of four panels. Several points give a
+/// column each, and the panels of a row share their axes. varied: the parameters whose values are
+/// the titles of the columns.
+Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied);
+
+}  // namespace salebra::figures

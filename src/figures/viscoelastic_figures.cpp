@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figure of losses on a viscoelastic body.
+#include <salebra/damping/viscoelastic_damping.hpp>
+#include <salebra/figures/figures.hpp>
+
+#include "axes.hpp"
+
+namespace salebra::figures {
+
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<ViscoelasticLoss>& losses) {
+  const Axis x = axis_of(quantity, spans_decades(values));
+  const auto curve = [&](const char* name, const char* of, const auto& value) {
+    Curve out{.name = name, .quantity = of, .x = values};
+    for (const ViscoelasticLoss& loss : losses) out.y.push_back(value(loss));
+    return out;
+  };
+  Figure figure{.kind = "viscoelastic", .columns = 2};
+  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+                           .x = x,
+                           .y = {.label = "W", .unit = "J", .logarithmic = true},
+                           .legend = Legend::top_left});
+  figure.panels.back().curves = {
+      curve("material, normal", "normal_material_work",
+            [](const auto& loss) { return loss.damping.normal_material_work; }),
+      curve("material, tangential", "tangential_material_work",
+            [](const auto& loss) { return loss.damping.tangential_material_work; }),
+      curve("relaxation", "relaxation_work",
+            [](const auto& loss) { return loss.damping.relaxation_work; }),
+      curve("elastic, relaxed modulus", "elastic_work",
+            [](const auto& loss) { return loss.elastic_work; })};
+  figure.panels.back().curves.back().style = Style::dashed;
+  figure.panels.push_back({.title = "Complex shear modulus",
+                           .x = x,
+                           .y = {.label = "modulus", .unit = "Pa", .logarithmic = true},
+                           .legend = Legend::top_left});
+  figure.panels.back().curves = {
+      curve("storage", "storage_modulus", [](const auto& loss) { return loss.storage_modulus; }),
+      curve("loss", "loss_modulus", [](const auto& loss) { return loss.loss_modulus; })};
+  return figure;
+}
+
+}  // namespace salebra::figures
