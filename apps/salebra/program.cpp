@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
@@ -157,6 +158,28 @@ bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
   return std::ranges::find(names, name) != names.end();
 }
 
+/// The picture of --plot without a name.
+constexpr const char* picture_by_input = "<input>.png";
+
+/// The name of the first input with the suffix .png, in the current folder; without an input that of
+/// the command.
+std::string picture_name(const Command& command) {
+  for (const Option& option : command.options())
+    if (option.positional() && option.file_use() == FileUse::input)
+      for (const std::string& file : option.files())
+        return std::filesystem::path(file).stem().string() + ".png";
+  return command.name() + ".png";
+}
+
+void check_width(const CommonOptions& options) {
+  if (!options.figure_width) return;
+  require_that(std::filesystem::path(options.plot).extension() != ".json" && !options.plot.empty(),
+               "--figure-width", "needs a picture; give --plot FILE.png, .svg or .pdf");
+  require(*options.figure_width >= 0.06 && *options.figure_width <= 1, "--figure-width",
+          format_quantity(*options.figure_width, Dimension::length),
+          "must be from 60 mm to 1 m; write for example 85mm");
+}
+
 }  // namespace
 
 Command& Program::add_command(const std::string& name, const std::string& what,
@@ -174,11 +197,14 @@ Command& Program::add_command(const std::string& name, const std::string& what,
           stops.emplace(interrupted);
         const int threads = std::min(common->threads, parallel::max_threads());
         parallel::set_threads(threads);
+        const Command& self = *std::ranges::find(commands_, name, &Command::name);
+        if (common->plot == picture_by_input) common->plot = picture_name(self);
+        check_width(*common);
         Session session(*common, line, check, launch);
         if (threads < common->threads)
           session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
                                    common->threads, threads));
-        session.name_files(std::ranges::find(commands_, name, &Command::name)->options());
+        session.name_files(self.options());
         action(session);
       });
   command.under(common_options);
@@ -198,9 +224,19 @@ Command& Program::add_command(const std::string& name, const std::string& what,
   add_choice(command, "--progress", common->progress, {"auto", "always", "never"},
              "progress bar; default auto, on a terminal only");
   command.under("Options");
-  if (!picture.empty())
-    command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
-        ->file(FileUse::output);
+  if (!picture.empty()) {
+    command
+        .add_option(
+            "--plot", common->plot,
+            "picture to draw, .png, .svg or .pdf, or its numbers, .json: " + picture +
+                "; without a name, last or before another option, it is named as the input, "
+                ".png")
+        ->file(FileUse::output)
+        ->value_without(picture_by_input);
+    add_quantity(command, "--figure-width", common->figure_width, Dimension::length,
+                 "width of the printed picture, with texts of 7 points, such as 85mm or 170mm; "
+                 "default the size of a screen");
+  }
   return command;
 }
 
@@ -247,8 +283,11 @@ void complete_options(const Command& command, std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       if (std::ranges::find(option.names(), words[i]) == option.names().end()) continue;
       double number = 0;
-      if (i + 1 == words.size() || !CLI::detail::lexical_cast(words[i + 1], number))
-        words[i] += "=" + option.value_without();
+      const bool bare =
+          i + 1 == words.size() ||
+          (option.file_use() == FileUse::none ? !CLI::detail::lexical_cast(words[i + 1], number)
+                                              : words[i + 1].starts_with('-'));
+      if (bare) words[i] += "=" + option.value_without();
     }
   }
 }

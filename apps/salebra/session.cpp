@@ -202,7 +202,7 @@ Provenance Session::provenance() const {
 
 void Session::plot(const figures::Figure& figure) {
   if (has_plot() && communicator().is_root())
-    figures::write_plot(options_.plot, figure, write_options());
+    figures::write_plot(options_.plot, figure, write_options(), options_.figure_width);
 }
 
 Progress Session::progress() {

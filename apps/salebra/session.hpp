@@ -31,9 +31,10 @@ struct CommonOptions {
   bool json = false;
   bool overwrite = false;
   bool quiet = false;
-  std::string output;  ///< file for the results; empty: none
-  std::string plot;    ///< picture to draw; empty: none
-  int threads = 0;     ///< 0: as many as the machine has
+  std::string output;                  ///< file for the results; empty: none
+  std::string plot;                    ///< picture to draw; empty: none
+  std::optional<double> figure_width;  ///< of the picture, m; empty: the size of a screen
+  int threads = 0;                     ///< 0: as many as the machine has
   std::string progress = "auto";
 };
 

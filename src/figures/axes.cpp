@@ -2,7 +2,10 @@
 // Axes of quantities and maps over grids.
 #include "axes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
@@ -11,16 +14,37 @@
 
 namespace salebra::figures {
 
-Axis axis_of(std::string_view name, bool logarithmic) {
+Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
   Quantity quantity = find_quantity(name);
   if (!is_quantity(name))
     if (const Column* own = find_column<DampingProblem, DampingSolution>(name))
       quantity = {own->name, own->dimension, own->long_name};
+  // No described struct has frequencies, which are angular in all of them.
+  for (const auto& [frequency, meaning] :
+       {std::pair("frequency", "frequency of the normal motion"),
+        {"tangential_frequency", "frequency of the tangential motion"}})
+    if (name == frequency) quantity = {frequency, Dimension::frequency, meaning};
   const std::string unit(si_unit(quantity.dimension));
   return {.quantity = std::string(name),
-          .label = plain_text(quantity.long_name.empty() ? name : quantity.long_name),
+          .label = !label.empty()
+                       ? std::string(label)
+                       : plain_text(quantity.long_name.empty() ? name : quantity.long_name),
           .unit = unit == "1" ? "" : unit,
           .logarithmic = logarithmic};
+}
+
+std::string interval_text(double value, double low, double high, Dimension dimension) {
+  const auto text = [&](double number) { return format_quantity(number, dimension, 3); };
+  return std::isfinite(low) && std::isfinite(high)
+             ? fmt::format("{} ({} … {})", text(value), text(low), text(high))
+             : text(value);
+}
+
+std::string error_text(double value, double error, Dimension dimension) {
+  const std::string text = format_quantity(value, dimension, 3);
+  return std::isfinite(error) && std::isfinite(value)
+             ? fmt::format("{} ± {:.2g} %", text, 100 * std::abs(error / value))
+             : text;
 }
 
 bool spans_decades(const std::vector<double>& values) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/units.hpp>
 #include <salebra/figures/figure.hpp>
 #include <string>
 #include <string_view>
@@ -8,8 +9,12 @@
 
 namespace salebra::figures {
 
-/// The axis of a quantity that has this name in JSON and files.
-Axis axis_of(std::string_view quantity, bool logarithmic = false);
+/// The axis of a quantity that has this name in JSON and files. label: instead of its meaning.
+Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_view label = {});
+/// "25.3 nm (24.1 nm … 26.5 nm)"; without the limits where they are unknown.
+std::string interval_text(double value, double low, double high, Dimension dimension);
+/// "25.3 nm ± 2 %"; without the error where it is unknown.
+std::string error_text(double value, double error, Dimension dimension);
 /// Whether positive values span more than 1.5 decades.
 bool spans_decades(const std::vector<double>& values);
 /// A map of a field over the cells of a grid, in colours.

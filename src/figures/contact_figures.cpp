@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of a force curve with its fitted law, and of the pressure and gap of one contact.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/study/realisation.hpp>
 #include <salebra/surface/lay.hpp>
-#include <tuple>
 #include <utility>
 
 #include "axes.hpp"
@@ -27,84 +32,198 @@ Curve points_of(const ForceCurve& curve, std::string name, double ForceSample::*
   return points;
 }
 
+/// The gap of the fitted law at a pressure.
+double gap_of(const ExponentialFit& fit, double pressure) {
+  return fit.decay_length * std::log(fit.reference_pressure / pressure);
+}
+
+ShadedRange window_of(const ExponentialFit& fit) {
+  return {.low = gap_of(fit, fit.window.pressure_max),
+          .high = gap_of(fit, fit.window.pressure_min),
+          .vertical = true,
+          .name = "window of the fit"};
+}
+
+std::string decay_length_text(const ExponentialFit& fit) {
+  return "decay length l = " + interval_text(fit.decay_length, fit.decay_length_low,
+                                             fit.decay_length_high, Dimension::length);
+}
+
 void add_fit(Panel& panel, const ExponentialFit& fit) {
-  const auto gap = [&](double pressure) {
-    return fit.decay_length * std::log(fit.reference_pressure / pressure);
-  };
   const double low = fit.window.pressure_min, high = fit.window.pressure_max;
-  panel.curves.push_back({.name = "p_0 e^{-ū/l}, fitted between the lines",
-                          .x = {gap(high), gap(low)},
+  panel.title = decay_length_text(fit);
+  panel.curves.push_back({.name = "p_0 e^{−ū/l}",
+                          .quantity = "pressure",
+                          .x = {gap_of(fit, high), gap_of(fit, low)},
                           .y = {high, low},
                           .style = Style::dashed});
-  panel.lines = {{.at = gap(high), .vertical = true}, {.at = gap(low), .vertical = true}};
+  panel.ranges.push_back(window_of(fit));
+}
+
+/// −dū/d ln p between neighbouring loads, and l of the fit: equal for an exponential law.
+Panel local_panel(const LocalDecayLength& local, const std::optional<ExponentialFit>& fit) {
+  Panel panel{.x = axis_of("mean_gap", false, "mean gap ū"),
+              .y = axis_of("local_decay_length", false, "local decay length −dū/d ln p")};
+  panel.y.low = 0;
+  panel.curves.push_back({.name = "between loads",
+                          .x = local.mean_gap,
+                          .y = local.decay_length,
+                          .style = Style::line_and_points});
+  if (fit) {
+    panel.lines.push_back(
+        {.at = fit->decay_length, .name = "l of the fit", .quantity = "decay_length"});
+    panel.ranges.push_back(window_of(*fit));
+  }
+  return panel;
+}
+
+/// How far the pressures are from the fitted law.
+Panel deviation_panel(const ForceCurve& curve, const ExponentialFit& fit) {
+  Curve points{.name = "p over the fit, less 1", .style = Style::line_and_points};
+  const auto& [low, high] = std::pair(fit.window.pressure_min, fit.window.pressure_max);
+  for (const ForceSample& sample : curve.samples) {
+    // Far from the window the deviation would use up the axis.
+    if (!sample.converged || !(sample.pressure >= low / 2) || !(sample.pressure <= 2 * high))
+      continue;
+    points.x.push_back(sample.mean_gap);
+    points.y.push_back(100 * (sample.pressure / (fit.reference_pressure *
+                                                 std::exp(-sample.mean_gap / fit.decay_length)) -
+                              1));
+  }
+  return {.x = axis_of("mean_gap", false, "mean gap ū"),
+          .y = {.label = "deviation from the fit (%)"},
+          .curves = {points},
+          .lines = {{.at = 0, .name = "the fit"}},
+          .ranges = {window_of(fit)}};
 }
 
 }  // namespace
 
-Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& fit) {
-  Figure figure;
+Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& given) {
   const std::vector<ForceCurve> curves = by_direction(all);
   const ForceCurve& curve = curves.front();
-  const Axis pressure{.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
+  const std::optional<ExponentialFit> fit =
+      given && std::isfinite(given->decay_length) ? given : std::nullopt;
+  Figure figure{
+      .kind = "curve",
+      .caption =
+          "Nominal pressure, contact area and stiffness of a contact" +
+          std::string(fit ? ", with the exponential law fitted in the shaded window." : ".")};
+  const Axis pressure = axis_of("pressure", true, "nominal pressure p");
   Curve gaps = points_of(curve, curve.model.empty() ? "curve" : plain_text(curve.model),
                          &ForceSample::mean_gap, &ForceSample::pressure);
   require(
       !gaps.x.empty(), "curve", curve.samples.size(),
       "samples, none of which converged with a mean gap and a pressure: there is nothing to draw");
   Panel& law = figure.panels.emplace_back();
-  law.x = {.label = "mean gap ū", .unit = "m"};
+  law.x = axis_of("mean_gap", false, "mean gap ū");
   law.y = pressure;
   law.curves.push_back(std::move(gaps));
-  if (fit && std::isfinite(fit->decay_length)) add_fit(law, *fit);
+  if (fit) add_fit(law, *fit);
 
   Curve areas = points_of(curve, "", &ForceSample::pressure, &ForceSample::contact_area_fraction);
   if (!areas.x.empty()) {
-    Panel& panel = figure.panels.emplace_back();
-    panel.x = pressure;
-    panel.y = {.label = "contact area A/A_0", .logarithmic = true};
-    panel.curves.push_back(std::move(areas));
+    figure.panels.push_back(
+        {.x = pressure, .y = axis_of("contact_area_fraction", true, "contact area A/A_0")});
+    figure.panels.back().curves.push_back(std::move(areas));
   }
-  Panel stiffness;
-  stiffness.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
-  stiffness.y = {.label = "stiffness", .unit = "N/m", .logarithmic = true};
-  stiffness.legend = Legend::top_left;
-  const auto add = [&](const ForceCurve& one, const std::string& name,
+  Panel stiffness{.x = axis_of("force", true, "normal force F"),
+                  .y = {.label = "stiffness", .unit = "N/m", .logarithmic = true},
+                  .legend = Legend::top_left};
+  Panel ratio{.x = pressure, .y = {.label = "stiffness ratio K_t/K", .low = 0}};
+  const auto add = [&](const ForceCurve& one, const std::string& name, const char* quantity,
                        double ForceSample::*member) {
-    if (Curve points = points_of(one, name, &ForceSample::force, member); !points.x.empty())
-      stiffness.curves.push_back(std::move(points));
+    Curve points = points_of(one, name, &ForceSample::force, member);
+    points.quantity = quantity;
+    if (!points.x.empty()) stiffness.curves.push_back(std::move(points));
   };
-  add(curve, "normal, K", &ForceSample::normal_stiffness);
-  for (const ForceCurve& one : curves)
-    add(one,
-        std::isnan(one.direction()) ? "tangential, K_t"
-                                    : "tangential, K_t, " + direction_in_words(one.direction()),
-        &ForceSample::tangential_stiffness);
+  add(curve, "normal, K", "normal_stiffness", &ForceSample::normal_stiffness);
+  for (const ForceCurve& one : curves) {
+    const std::string way =
+        std::isnan(one.direction()) ? "" : ", " + direction_in_words(one.direction());
+    add(one, "tangential, K_t" + way, "tangential_stiffness", &ForceSample::tangential_stiffness);
+    Curve quotient =
+        points_of(one, "K_t/K" + way, &ForceSample::pressure, &ForceSample::tangential_stiffness);
+    std::size_t k = 0;
+    for (const ForceSample& sample : one.samples)
+      if (sample.converged && std::isfinite(sample.pressure) &&
+          std::isfinite(sample.tangential_stiffness))
+        quotient.y[k++] /= sample.normal_stiffness;
+    if (std::ranges::any_of(quotient.y, [](double y) { return std::isfinite(y); }))
+      ratio.curves.push_back(std::move(quotient));
+  }
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
+  if (!ratio.curves.empty()) figure.panels.push_back(std::move(ratio));
+  if (fit) {
+    figure.panels.push_back(local_panel(local_decay_length(curve), fit));
+    figure.panels.push_back(deviation_panel(curve, *fit));
+  }
   return figure;
 }
 
+Figure figure_of(const LocalDecayLength& local) {
+  return {.kind = "local_decay_length", .panels = {local_panel(local, {})}};
+}
+
 Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading) {
-  Figure figure;
-  for (const auto& [label, unit, y] :
-       {std::tuple("nominal pressure p", "Pa", &ForceSample::pressure),
-        {"contact area A/A_0", "", &ForceSample::contact_area_fraction}}) {
-    Panel& panel = figure.panels.emplace_back();
-    panel.x = {.label = "indentation", .unit = "m"};
-    panel.y = {.label = label, .unit = unit};
-    panel.legend = Legend::top_left;
-    panel.curves = {points_of(loading, "loading", &ForceSample::indentation, y),
-                    points_of(unloading, "unloading", &ForceSample::indentation, y)};
-  }
+  Figure figure{.kind = "cycle_of_gaps",
+                .caption = "Loading and unloading; negative pressures pull the bodies together."};
+  for (const auto& [y, member] :
+       {std::pair(axis_of("pressure", false, "nominal pressure p"), &ForceSample::pressure),
+        {axis_of("contact_area_fraction", false, "contact area A/A_0"),
+         &ForceSample::contact_area_fraction}})
+    figure.panels.push_back(
+        {.x = axis_of("indentation", false, "indentation"),
+         .y = y,
+         .curves = {points_of(loading, "loading", &ForceSample::indentation, member),
+                    points_of(unloading, "unloading", &ForceSample::indentation, member)},
+         .legend = Legend::top_left});
   return figure;
 }
 
 Figure figure_of(const Grid2D& grid, const NormalContactState& state) {
-  Figure figure;
-  figure.panels.push_back(
-      map_panel(grid, state.contact_pressure, "contact pressure", {.label = "p", .unit = "Pa"}));
-  figure.panels.push_back(map_panel(grid, state.gap, "gap", {.label = "g", .unit = "m"}));
-  figure.columns = 2;
-  return figure;
+  const Field touching =
+      (state.contact_pressure > 0)
+          .select(state.contact_pressure, std::numeric_limits<double>::quiet_NaN());
+  const std::string share =
+      fmt::format("contact area A/A_0 = {:.3g} %", 100 * state.contact_area_fraction);
+  const std::string gap = "mean gap " + format_quantity(state.mean_gap, Dimension::length, 3);
+  return {.kind = "contact",
+          .caption =
+              "Contact pressure on the spots, white where the bodies do not touch, and gap, at "
+              "the nominal pressure " +
+              format_quantity(state.mean_pressure, Dimension::pressure, 3) + ".",
+          .panels = {map_panel(
+                         grid,
+                         state.contact_pressure.maxCoeff() > 0 ? touching : state.contact_pressure,
+                         share, axis_of("contact_pressure", false, "pressure")),
+                     map_panel(grid, state.gap, gap, axis_of("gap", false, "gap"))},
+          .columns = 2};
+}
+
+Figure figure_of(const ContactSpots& spots) {
+  Curve curve{.style = Style::line_and_points};
+  for (const ContactSpot& spot : spots.spots) {
+    curve.x.push_back(spot.area);
+    curve.y.push_back(static_cast<double>(curve.x.size()));
+  }
+  return {
+      .kind = "contact_spots",
+      .panels = {
+          {.title = fmt::format("{} spots", spots.spots.size()),
+           .x = {.quantity = "area", .label = "area of a spot", .unit = "m^2", .logarithmic = true},
+           .y = {.label = "spots at least as large", .logarithmic = true},
+           .curves = {curve}}}};
+}
+
+Figure figure_of(const SpotStatistics& spots) {
+  Curve curve{.y = spots.spots_by_size, .style = Style::line_and_points};
+  for (std::size_t k = 0; k < curve.y.size(); ++k) curve.x.push_back(std::pow(2.0, double(k)));
+  return {.kind = "spot_statistics",
+          .panels = {{.title = fmt::format("{:.4g} spots", spots.spot_count),
+                      .x = {.label = "cells of a spot, at least", .logarithmic = true},
+                      .y = {.quantity = "spots_by_size", .label = "spots"},
+                      .curves = {curve}}}};
 }
 
 }  // namespace salebra::figures

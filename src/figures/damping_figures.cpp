@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
@@ -79,7 +81,7 @@ Panel path_panel(const SampledMotion& path) {
                             .y = {0, 0},
                             .style = Style::line_and_points});
   }
-  panel.lines.push_back({.at = 0});
+  panel.lines.push_back({.at = 0, .name = "undeformed surface"});
   panel.legend = Legend::top_left;
   panel.y.low = -0.55 * (high - low);
   panel.y.high = 0.8 * (high - low);
@@ -137,8 +139,11 @@ Figure figure_of(const IndenterLaw& law, double indentation) {
       pressure.y.push_back(law.pressure(indentation, distance * (1 - 1e-9)));
     }
   }
-  Figure figure;
-  figure.columns = 2;
+  Figure figure{.kind = "indenter",
+                .caption =
+                    "An axisymmetric indenter at rest, its one-dimensional image on "
+                    "independent springs, the pressure and the force.",
+                .columns = 2};
   const Axis height = {.label = "height", .unit = "m"};
   figure.panels.push_back({.title = "(a) contact with the half-space",
                            .x = {.label = "r", .unit = "m"},
@@ -165,19 +170,25 @@ Figure figure_of(const IndenterLaw& law, double indentation) {
 }
 
 Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
-  Figure figure;
-  figure.columns = 3;
+  Figure figure{.kind = "motion",
+                .caption =
+                    "One period of the motion: the path of a point of the body, the "
+                    "tangential force over the displacement, and the energy lost.",
+                .columns = 3};
   figure.panels.push_back(path_panel(path));
   figure.panels.push_back(
       {.title = loss.transverse_force.empty() ? "Loop: its area is the loss" : "Loop along x",
        .x = roomy({.label = "x", .unit = "m"}, path.displacement),
        .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
-  figure.panels.back().curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}};
+  figure.panels.back().curves = {{.quantity = "tangential_force",
+                                  .x = path.displacement,
+                                  .y = loss.tangential_force,
+                                  .color = 1}};
   Panel& work = figure.panels.emplace_back();
-  work.title = "Energy lost, W = " + format_quantity(loss.work_per_cycle, Dimension::energy, 4) +
-               " a period";
+  work.title = "Energy lost in a period, W = " +
+               error_text(loss.work_per_cycle, loss.work_per_cycle_error(), Dimension::energy);
   const double start = path.time.front();
-  Curve lost{.x = path.time, .y = loss.dissipated, .color = 2};
+  Curve lost{.quantity = "dissipated", .x = path.time, .y = loss.dissipated, .color = 2};
   for (double& time : lost.x) time = (time - start) / path.period();
   work.x = {.label = "t / period"};
   work.y = {.label = "energy lost since the start", .unit = "J"};
@@ -188,50 +199,78 @@ Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<DampingResult>& results) {
   const Axis x = axis_of(quantity, spans_decades(values));
-  Figure figure;
-  figure.columns = 3;
-  std::vector<Curve> works, ratios, constants;
-  const std::size_t directions = results.size() / values.size();
-  for (std::size_t d = 0; d < directions; ++d) {
-    const std::string way =
-        directions > 1 ? ", " + direction_in_words(results[d * values.size()].direction) : "";
-    Curve exact{.name = "W" + way, .x = values},
-        small{.name = "small-amplitude form" + way, .x = values};
-    small.style = Style::dashed;
-    Curve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
-    if (directions > 1)
-      for (Curve* curve : {&ratio, &constant}) {
-        curve->name = direction_in_words(results[d * values.size()].direction);
-        curve->color = -1;
-      }
-    for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
-      const DampingResult& result = results[k];
-      exact.y.push_back(result.work_per_cycle);
-      small.y.push_back(result.small_amplitude_work);
-      ratio.y.push_back(100 * (result.small_amplitude_work / result.work_per_cycle - 1));
-      constant.y.push_back(result.damping_constant);
-    }
-    works.insert(works.end(), {exact, small});
-    ratios.push_back(ratio);
-    constants.push_back(constant);
-  }
-  figure.panels.push_back(
+  Figure figure{.kind = "damping",
+                .caption =
+                    "Energy lost in a cycle and damping constant, with their numerical errors, "
+                    "without slip and by the closed form for small amplitudes.",
+                .columns = 3};
+  figure.panels = {
       {.title = "Energy dissipated in a cycle",
        .x = x,
-       .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(works.front().y)},
-       .legend = Legend::top_left});
-  figure.panels.back().curves = works;
-  figure.panels.push_back(
-      {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}});
-  figure.panels.back().curves = ratios;
-  const std::vector<double>& first = constants.front().y;
-  if (std::ranges::any_of(first, [](double value) { return std::isfinite(value); })) {
-    figure.panels.push_back(
-        {.title = "Damping constant",
-         .x = x,
-         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(first)}});
-    figure.panels.back().curves = constants;
+       .y = axis_of("work_per_cycle", false, "loss W"),
+       .legend = Legend::top_left},
+      {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}},
+      {.title = "Damping constant",
+       .x = x,
+       .y = axis_of("damping_constant", false, "damping constant γ")}};
+  const std::size_t directions = results.size() / values.size();
+  for (std::size_t d = 0; d < directions; ++d) {
+    const DampingResult& first = results[d * values.size()];
+    const std::string way = directions > 1 ? ", " + direction_in_words(first.direction) : "";
+    // The loss of a contact that slips may be unknown where the loss without slip is known.
+    const bool slips = std::ranges::any_of(results, [](const DampingResult& one) {
+      return std::isfinite(one.slip_work) ||
+             (std::isnan(one.work_per_cycle) && std::isfinite(one.work_per_cycle_without_slip));
+    });
+    const auto add = [&](Panel& panel, const char* name, const char* of, const auto& number,
+                         const auto& error) {
+      Curve curve{.name = name + way, .quantity = of, .x = values};
+      for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
+        curve.y.push_back(number(results[k]));
+        curve.low.push_back(curve.y.back() - error(results[k]));
+        curve.high.push_back(curve.y.back() + error(results[k]));
+      }
+      const auto known = [](double value) { return std::isfinite(value); };
+      if (!std::ranges::any_of(curve.y, known)) return;
+      if (!std::ranges::any_of(curve.low, known)) curve.low = curve.high = {};
+      panel.y.logarithmic = panel.curves.empty() ? spans_decades(curve.y) : panel.y.logarithmic;
+      panel.curves.push_back(std::move(curve));
+    };
+    const auto none = [](const DampingResult&) { return ContactParameters::unknown; };
+    add(
+        figure.panels[0], slips ? "W with slip" : "W", "work_per_cycle",
+        [](const DampingResult& one) { return one.work_per_cycle; },
+        [](const DampingResult& one) { return one.work_per_cycle_error(); });
+    if (slips)
+      add(
+          figure.panels[0], "W without slip", "work_per_cycle_without_slip",
+          [](const DampingResult& one) { return one.work_per_cycle_without_slip; }, none);
+    add(
+        figure.panels[0], "small-amplitude form", "small_amplitude_work",
+        [](const DampingResult& one) { return one.small_amplitude_work; }, none);
+    figure.panels[0].curves.back().style = Style::dashed;
+    add(
+        figure.panels[1], "small-amplitude form", "",
+        [](const DampingResult& one) {
+          return 100 * (one.small_amplitude_work / one.work_per_cycle - 1);
+        },
+        none);
+    add(
+        figure.panels[2], slips ? "γ with slip" : "γ", "damping_constant",
+        [](const DampingResult& one) { return one.damping_constant; },
+        [](const DampingResult& one) { return one.damping_constant_error(); });
+    if (slips)
+      add(
+          figure.panels[2], "γ without slip", "damping_constant_without_slip",
+          [](const DampingResult& one) { return one.damping_constant_without_slip; },
+          [](const DampingResult& one) { return one.damping_constant_without_slip_error(); });
+    add(
+        figure.panels[2], "small-amplitude form", "",
+        [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
+        none);
+    if (!figure.panels[2].curves.empty()) figure.panels[2].curves.back().style = Style::dashed;
   }
+  std::erase_if(figure.panels, [](const Panel& panel) { return panel.curves.empty(); });
   return figure;
 }
 
@@ -273,7 +312,8 @@ Panel section_of(const OscillatingStress& stress, double angle, double most, dou
   curve.x.push_back(1.05 * most);
   curve.y.push_back(0);
   panel.curves.push_back(curve);
-  for (const double at : {least, most}) panel.lines.push_back({.at = at, .vertical = true});
+  panel.lines = {{.at = least, .vertical = true, .name = "smallest contact radius"},
+                 {.at = most, .vertical = true, .name = "largest contact radius"}};
   return panel;
 }
 
@@ -298,8 +338,11 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
     return image;
   };
 
-  Figure figure;
-  figure.columns = 2;
+  Figure figure{.kind = "stress_map",
+                .caption =
+                    "Tangential stress and pressure over radius and phase; the black line is "
+                    "the edge of the contact.",
+                .columns = 2};
   Panel& shear = figure.panels.emplace_back();
   shear.title = "(a) tangential stress τ";
   shear.x = radius;
@@ -324,21 +367,23 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
   pressure.curves.push_back(edge);
   figure.panels.push_back(
       section_of(stress, -pi / 3, most, limit, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
-  for (const double at : {1.0 / 6, -1.0 / 6}) figure.panels[0].lines.push_back({.at = at});
+  figure.panels[0].lines = {{.at = 1.0 / 6, .name = "(b)"}, {.at = -1.0 / 6, .name = "(d)"}};
   return figure;
 }
 
 Figure figure_of(const FrictionMap& map) {
-  const Axis number = {.label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
+  const Axis number = {
+      .quantity = "friction_number", .label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
   Panel panel, missing, parts;
   panel.title = "(a) W(μ) / W(∞)";
   panel.x = number;
   panel.y = {.label = "phase φ_0 (°)"};
-  panel.image = Image{.x = map.friction_number,
-                      .y = scaled(map.phase, degrees),
-                      .values = map.loss_ratio,
-                      .scale = {.label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
-                      .contours = {0.5, 0.9, 0.95, 0.99}};
+  panel.image =
+      Image{.x = map.friction_number,
+            .y = scaled(map.phase, degrees),
+            .values = map.loss_ratio,
+            .scale = {.quantity = "loss_ratio", .label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
+            .contours = {0.5, 0.9, 0.95, 0.99}};
 
   missing.title = "(b) how far the result for μ = ∞ is off";
   missing.x = number;
@@ -377,7 +422,12 @@ Figure figure_of(const FrictionMap& map) {
     sum.y.push_back(map.loss_ratio(i, j));
   }
   parts.curves = {relaxation, slip, sum};
-  return {.panels = {panel, missing, parts}, .columns = 3};
+  return {.kind = "friction_map",
+          .caption =
+              "Loss with friction over the loss without slip, over the friction number M and "
+              "the phase.",
+          .panels = {panel, missing, parts},
+          .columns = 3};
 }
 
 namespace {
@@ -398,7 +448,7 @@ Panel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
     panel.image = Image{.x = hertz,
                         .y = map.normal_amplitude,
                         .values = map.damping_constant.transpose(),
-                        .scale = {.label = "γ", .unit = "N s/m", .logarithmic = true}};
+                        .scale = axis_of("damping_constant", true, "damping constant γ")};
     if (falling_slope) {
       panel.title =
           fmt::format("Steady sliding is stable where γ > b = {:.4g} N s/m", *falling_slope);
@@ -406,7 +456,7 @@ Panel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
     }
     return panel;
   }
-  panel.y = {.label = "γ", .unit = "N s/m"};
+  panel.y = axis_of("damping_constant", false, "damping constant γ");
   const bool over_amplitude = amplitudes > 1;
   panel.x = over_amplitude ? amplitude : frequency;
   Curve curve{.x = over_amplitude ? map.normal_amplitude : hertz, .style = Style::line_and_points};
@@ -464,7 +514,9 @@ Panel border_panel(const std::vector<double>& omega, const std::vector<double>& 
 
 Figure figure_of(const DamperSolution& answer, std::optional<double> falling_slope,
                  const std::vector<double>& angular_frequency) {
-  Figure figure;
+  Figure figure{
+      .kind = "damper",
+      .caption = "Damping constant of a slow tangential motion beside a normal oscillation."};
   if (answer.map.damping_constant.size() > 1)
     figure.panels.push_back(damper_panel(answer.map, falling_slope));
   if (answer.decay) figure.panels.push_back(decay_panel(*answer.decay));
@@ -473,6 +525,24 @@ Figure figure_of(const DamperSolution& answer, std::optional<double> falling_slo
       std::ranges::any_of(least, [](double value) { return std::isfinite(value); }))
     figure.panels.push_back(border_panel(angular_frequency, least));
   return figure;
+}
+
+Figure figure_of(const DamperMap& map) {
+  return {.kind = "damper", .panels = {damper_panel(map, {})}};
+}
+
+Figure figure_of(const AsperityDamping& loss) {
+  Curve curve;
+  for (const double work : loss.work)
+    if (work > 0) curve.y.push_back(work);
+  std::ranges::sort(curve.y, std::greater{});
+  for (std::size_t k = 1; k <= curve.y.size(); ++k) curve.x.push_back(double(k));
+  return {
+      .kind = "asperity_damping",
+      .panels = {{.title = "loss W = " + format_quantity(loss.work_per_cycle, Dimension::energy, 4),
+                  .x = {.label = "summit, the largest loss first", .logarithmic = true},
+                  .y = axis_of("work_per_cycle", true, "loss in a cycle"),
+                  .curves = {curve}}}};
 }
 
 }  // namespace salebra::figures

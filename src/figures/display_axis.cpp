@@ -31,9 +31,9 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 
 // Gnuplot's list of tics for a logarithmic axis. Labels the decades and, if there are few decades,
 // also their 2nd and 5th multiples. The other multiples get small tics without label.
-std::string logarithmic_tics(double low, double high) {
+std::string logarithmic_tics(double low, double high, int labels) {
   const bool few = high - low < 1.7 || std::floor(high) - std::ceil(low) < 1;
-  const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / 9)));
+  const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / (labels - 1))));
   std::string tics;
   for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade) {
     for (int digit = 1; digit <= 9; ++digit) {
@@ -42,10 +42,11 @@ std::string logarithmic_tics(double low, double high) {
       const bool labelled = digit == 1 ? decade % stride == 0 : few && (digit == 2 || digit == 5);
       if (!labelled && digit > 1 && stride > 1) continue;
       const double value = digit * std::pow(10.0, decade);
-      const std::string text = !labelled ? ""
-                               : digit == 1 && (decade < -3 || decade > 4)
-                                   ? fmt::format("10^{{{}}}", decade)
-                                   : number(value);
+      const std::string text =
+          !labelled                                   ? ""
+          : digit == 1 && (decade < -3 || decade > 4) ? fmt::format("10^{{{}}}", decade)
+          : decade < -3 || decade > 4                 ? fmt::format("{}×10^{{{}}}", digit, decade)
+                                                      : number(value);
       tics +=
           fmt::format("{}'{}' {:.9g}{}", tics.empty() ? "(" : ",", text, at, labelled ? "" : " 1");
     }
@@ -62,7 +63,8 @@ double DisplayAxis::display(double value) const {
   return logarithmic ? std::log10(shown) : shown;
 }
 
-DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data) {
+DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data,
+                         int labels) {
   double least = std::numeric_limits<double>::infinity(), most = -least, largest = 0;
   bool any = false;
   const auto see = [&](double value) {
@@ -90,6 +92,7 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
     unit = std::string(prefix) + unit;
     out.factor = factor;
   }
+  out.unit = unit;
   out.label = unit.empty() ? axis.label : axis.label + " (" + unit + ")";
   if (axis.low) out.low = out.display(*axis.low);
   if (axis.high) out.high = out.display(*axis.high);
@@ -98,9 +101,18 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
     const double padding = to > from ? 0.03 * (to - from) : 0.5;
     if (!out.low) out.low = from - padding;
     if (!out.high) out.high = to + padding;
-    out.tics = logarithmic_tics(*out.low, *out.high);
+    out.tics = logarithmic_tics(*out.low, *out.high, labels);
   }
   return out;
+}
+
+void set_linear_tics(DisplayAxis& axis, int labels) {
+  if (axis.logarithmic || !axis.low || !axis.high || !(*axis.low < *axis.high)) return;
+  const double least = (*axis.high - *axis.low) / labels;
+  double step = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {2.0, 2.5, 2.0})
+    if (step < least) step *= factor;
+  axis.tics = fmt::format("{:.9g}", step);
 }
 
 }  // namespace salebra::figures

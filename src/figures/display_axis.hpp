@@ -14,6 +14,7 @@ namespace salebra::figures {
 /// logarithms.
 struct DisplayAxis {
   std::string label;  ///< text beside the axis, with the unit
+  std::string unit;   ///< with its prefix
   /// Factor from the unit of the data to the unit that the picture shows.
   double factor = 1;
   bool logarithmic = false;         ///< the picture shows the decimal logarithm of the data
@@ -26,7 +27,11 @@ struct DisplayAxis {
 };
 
 /// The axis for these data. Throws InvalidInput for a logarithmic axis with a limit <= 0, or with
-/// data of which none is > 0.
-DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data);
+/// data of which none is > 0. labels: the most tics with a label that have room.
+DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data,
+                         int labels = 10);
+
+/// Sets the distance of the tics of a linear axis with known limits.
+void set_linear_tics(DisplayAxis& axis, int labels);
 
 }  // namespace salebra::figures

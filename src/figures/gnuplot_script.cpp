@@ -23,7 +23,23 @@ constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69
 // Number of colours that curves get by default; grey and wine are used only on request.
 constexpr int cycle = 7;
 constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
-constexpr int panel_width = 520, panel_height = 390, title_height = 26;
+/// Dash patterns of lines across a panel, so that the legend can tell them apart.
+constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2,3)"};
+
+/// Size of a panel and of its text, in pixels of 1/96 inch.
+struct Layout {
+  double width = 520, height = 390, font = 12;
+
+  double character() const { return 0.617 * font; }
+  double line() const { return 1.5 * font; }
+  /// A little less than gnuplot's frame in a panel without title.
+  double frame_width() const { return width - 9.2 * font; }
+  double frame_height() const { return height - 7.5 * font; }
+  int labels(bool across) const {
+    return across ? static_cast<int>(std::clamp(frame_width() / (5.5 * character()), 3.0, 10.0))
+                  : static_cast<int>(std::clamp(frame_height() / (2 * line()), 3.0, 10.0));
+  }
+};
 
 std::string literal(std::string_view text) {
   std::string out = "'";
@@ -74,14 +90,12 @@ struct Box {
   }
 };
 
-/// Upper estimate of the width of a text in pixels; the true width depends on the font. Markup has
-/// no width.
-double text_width(std::string_view text) {
-  constexpr double character = 7.4;
-  return character * double(std::ranges::count_if(text, [](char c) {
-           const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-           return !continues && std::string_view("_^{}\\").find(c) == std::string_view::npos;
-         }));
+/// Upper estimate of the number of characters of a text; markup has no width.
+double characters(std::string_view text) {
+  return double(std::ranges::count_if(text, [](char c) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+    return !continues && std::string_view("_^{}\\").find(c) == std::string_view::npos;
+  }));
 }
 
 void check(const Curve& curve) {
@@ -100,8 +114,8 @@ void check(const Curve& curve) {
 
 class PanelScript {
  public:
-  PanelScript(const Panel& panel, int number, std::string& out)
-      : panel_(panel), number_(number), out_(out) {
+  PanelScript(const Panel& panel, int number, const Layout& layout, std::string& out)
+      : panel_(panel), number_(number), layout_(layout), out_(out) {
     for (const Curve& curve : panel.curves) check(curve);
     if (panel.image) check_raster(*panel.image);
     std::vector<std::span<const double>> x, y;
@@ -117,8 +131,12 @@ class PanelScript {
       x.emplace_back(panel.image->x);
       y.emplace_back(panel.image->y);
     }
-    x_ = display_axis(panel.x, x);
-    y_ = display_axis(panel.y, y);
+    for (const ReferenceLine& mark : panel.lines)
+      // A reference beside the data extends the axis to itself.
+      if (!mark.vertical && !mark.name.empty() && !panel.image)
+        y.emplace_back(std::span(&mark.at, 1));
+    x_ = display_axis(panel.x, x, layout.labels(true));
+    y_ = display_axis(panel.y, y, layout.labels(false));
     if (!panel.image) {
       const bool points = std::ranges::any_of(panel.curves, [](const Curve& curve) {
         return curve.style == Style::points || curve.style == Style::line_and_points;
@@ -126,20 +144,28 @@ class PanelScript {
       set_limits(x_, x, points ? 0.03 : 0);
       set_limits(y_, y, 0.04);
     }
-    if (!panel.second_x) return;
-    std::vector<double> top;
-    for (const auto& column : x)
-      for (const double value : column) top.push_back(value * panel.second_x->factor);
-    top_ = display_axis({.label = panel.second_x->label,
-                         .unit = panel.second_x->unit,
-                         .logarithmic = panel.x.logarithmic},
-                        {top});
-  }
-
-  void write() {
+    set_linear_tics(x_, layout.labels(true));
+    set_linear_tics(y_, layout.labels(false));
+    top_ = second_axis(panel.second_x, panel.x, x_, layout.labels(true));
+    right_ = second_axis(panel.second_y, panel.y, y_, layout.labels(false));
     find_obstacles();
     place_names();
+  }
+
+  /// Lines of text that the legend needs below the panel; 0: it is inside.
+  int legend_rows() const {
+    if (legend_ != below) return 0;
+    const double wide = legend_width(), entries = legend_entries();
+    return static_cast<int>(
+        std::ceil(entries / std::max(1.0, std::floor(layout_.frame_width() / wide))));
+  }
+
+  /// place: commands that set the place of the panel; legend: lines of text below the panels of its
+  /// row.
+  void write(const std::string& place, int legend) {
     write_frame();
+    out_ += place;
+    if (legend > 0) line("set bmargin {:.2f}", 3.6 + 1.2 * legend);
     if (panel_.image) write_image();
     write_curves();
     fmt::format_to(std::back_inserter(out_), "plot {}\n", fmt::join(plots_, ", \\\n     "));
@@ -172,6 +198,25 @@ class PanelScript {
     if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + padding) : most + padding;
   }
 
+  /// The second scale of an axis: the same limits, times the factor.
+  static std::optional<DisplayAxis> second_axis(const std::optional<SecondAxis>& second,
+                                                const Axis& axis, const DisplayAxis& main,
+                                                int labels) {
+    if (!second || !main.low || !main.high) return {};
+    const auto value = [&](double shown) {
+      return (axis.logarithmic ? std::pow(10.0, shown) : shown) / main.factor * second->factor;
+    };
+    const std::vector<double> ends{value(*main.low), value(*main.high)};
+    DisplayAxis out = display_axis({.label = second->label,
+                                    .unit = second->unit,
+                                    .logarithmic = axis.logarithmic,
+                                    .low = ends[0],
+                                    .high = ends[1]},
+                                   {ends}, labels);
+    set_linear_tics(out, labels);
+    return out;
+  }
+
   static double part(const DisplayAxis& axis, double value) {
     return (axis.display(value) - *axis.low) / (*axis.high - *axis.low);
   }
@@ -186,7 +231,10 @@ class PanelScript {
 
   void find_obstacles() {
     if (!x_.low || !x_.high || !y_.low || !y_.high) return;
-    height_ = frame_height - (panel_.title.empty() ? 0 : 20) - (top_.label.empty() ? 0 : 40);
+    width_ = layout_.frame_width() - (right_ ? 4 * layout_.font : 0) -
+             (panel_.image && panel_.image->color_bar ? 8 * layout_.font : 0);
+    height_ = layout_.frame_height() - (panel_.title.empty() ? 0 : 1.7 * layout_.font) -
+              (top_ ? 3.4 * layout_.font : 0);
     const auto segment = [&](double x0, double y0, double x1, double y1) {
       const double steps = std::ceil(std::hypot(x1 - x0, y1 - y0) / 3);
       if (!std::isfinite(steps)) return;
@@ -195,7 +243,7 @@ class PanelScript {
         obstacles_.push_back({x0 + along * (x1 - x0), y0 + along * (y1 - y0)});
       }
     };
-    const auto across = [&](double value) { return frame_width * part(x_, value); };
+    const auto across = [&](double value) { return width_ * part(x_, value); };
     const auto up = [&](double value) { return height_ * part(y_, value); };
     for (const Curve& curve : panel_.curves)
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
@@ -212,7 +260,7 @@ class PanelScript {
       if (mark.vertical)
         segment(across(mark.at), 0, across(mark.at), height_);
       else
-        segment(0, up(mark.at), frame_width, up(mark.at));
+        segment(0, up(mark.at), width_, up(mark.at));
   }
 
   bool free(const Box& box) const {
@@ -226,17 +274,18 @@ class PanelScript {
   /// legend gets the first free corner, or is placed below the panel if no corner is free.
   void place_names() {
     for (const ReferenceLine& mark : panel_.lines) {
-      if (mark.vertical || mark.name.empty() || !seen(mark)) continue;
-      if (height_ == 0) {
-        names_.push_back({&mark, 0.98, 0.5});
+      if (mark.name.empty() || !seen(mark)) continue;
+      if (mark.vertical || height_ == 0) {
+        unplaced_.push_back(&mark);
         continue;
       }
-      const double width = text_width(mark.name), line = height_ * part(y_, mark.at);
+      const double width = layout_.character() * characters(mark.name),
+                   line = height_ * part(y_, mark.at);
       bool placed = false;
-      for (double right = 0.98; !placed && right * frame_width > width; right -= 0.05)
+      for (double right = 0.98; !placed && right * width_ > width; right -= 0.05)
         for (const double offset : {0.5, -0.5}) {
-          const double bottom = line - (offset > 0 ? 0 : 18), edge = right * frame_width;
-          const Box box{edge - width, edge, bottom, bottom + 18};
+          const double bottom = line - (offset > 0 ? 0 : layout_.line()), edge = right * width_;
+          const Box box{edge - width, edge, bottom, bottom + layout_.line()};
           if (box.bottom < 0 || box.top > height_ || !free(box)) continue;
           taken_.push_back(box);
           names_.push_back({&mark, right, offset});
@@ -245,32 +294,61 @@ class PanelScript {
         }
       if (!placed) unplaced_.push_back(&mark);
     }
-    double rows = double(unplaced_.size()), width = 0;
-    for (const ReferenceLine* mark : unplaced_)
-      width = std::max(width, text_width(entry_of(*mark)));
-    for (const Curve& curve : panel_.curves)
-      if (!curve.name.empty()) {
-        ++rows;
-        width = std::max(width, text_width(curve.name));
-      }
     legend_ = legend_place(panel_.legend);
-    if (rows == 0 || height_ == 0 || panel_.legend == Legend::right_of_panel) return;
-    const double wide = width + 55, high = 18 * rows + 8;
+    const double rows = legend_entries();
+    if (rows == 0 || panel_.legend == Legend::right_of_panel) return;
+    const double wide = legend_width(), high = layout_.line() * rows + 0.7 * layout_.font;
+    // Nothing is drawn in a corner of an image that is not on it.
+    if (panel_.image || height_ == 0) {
+      legend_ = below;
+      return;
+    }
     using enum Legend;
     for (const Legend corner : {panel_.legend, top_right, top_left, bottom_right, bottom_left}) {
       const bool right = corner == top_right || corner == bottom_right,
                  top = corner == top_right || corner == top_left;
-      if (!free({right ? frame_width - wide : 0, right ? frame_width : wide,
-                 top ? height_ - high : 0, top ? height_ : high}))
+      if (!free({right ? width_ - wide : 0, right ? width_ : wide, top ? height_ - high : 0,
+                 top ? height_ : high}))
         continue;
       legend_ = legend_place(corner);
       return;
     }
-    legend_ = "below Left reverse";
+    legend_ = below;
   }
 
-  static std::string entry_of(const ReferenceLine& mark) {
-    return fmt::format("{}: {:.3g}", mark.name, mark.at);
+  double legend_entries() const {
+    const auto named = [](const auto& one) { return !one.name.empty(); };
+    return double(unplaced_.size()) + double(std::ranges::count_if(panel_.curves, named)) +
+           double(std::ranges::count_if(panel_.ranges, named));
+  }
+
+  /// In pixels, of one column with the samples of the lines.
+  double legend_width() const {
+    double longest = 0;
+    for (const ReferenceLine* mark : unplaced_)
+      longest = std::max(longest, characters(entry_of(*mark)));
+    for (const Curve& curve : panel_.curves) longest = std::max(longest, characters(curve.name));
+    for (const ShadedRange& range : panel_.ranges)
+      longest = std::max(longest, characters(range.name));
+    return layout_.character() * longest + 4.6 * layout_.font;
+  }
+
+  std::string entry_of(const ReferenceLine& mark) const {
+    const DisplayAxis& axis = mark.vertical ? x_ : y_;
+    return fmt::format("{}: {:.3g}{}{}", mark.name, mark.at * axis.factor,
+                       axis.unit.empty() ? "" : " ", axis.unit);
+  }
+
+  /// The pattern of the line; lines with the same name have the same.
+  const char* dash_of(const ReferenceLine& mark) const {
+    const auto first = std::ranges::find(panel_.lines, mark.name, &ReferenceLine::name);
+    return line_dashes[static_cast<std::size_t>(first - panel_.lines.begin()) % line_dashes.size()];
+  }
+
+  /// From side to side of the frame, between two values on an axis.
+  static std::string across(bool vertical, double from, double to) {
+    return vertical ? fmt::format("from first {:.9g},graph 0 to first {:.9g},graph 1", from, to)
+                    : fmt::format("from graph 0,first {:.9g} to graph 1,first {:.9g}", from, to);
   }
 
   void write_frame() {
@@ -279,47 +357,48 @@ class PanelScript {
     line("set border lw 0.8\nset tics in scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(panel_.title));
     line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_);
-    if (panel_.image) line("set key opaque box lw 0.5");
-    if (unplaced_.empty() && std::ranges::all_of(panel_.curves, &std::string::empty, &Curve::name))
-      line("unset key");
+    if (legend_entries() == 0) line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
     write_axis("x", x_);
     write_axis("y", y_);
-    if (!top_.label.empty()) {
+    if (top_) {
       line("set xtics nomirror");
-      write_axis("x2", top_);
+      write_axis("x2", *top_);
+    }
+    if (right_) {
+      line("set ytics nomirror");
+      write_axis("y2", *right_);
+    }
+    for (const ShadedRange& range : panel_.ranges) {
+      const DisplayAxis& axis = range.vertical ? x_ : y_;
+      const double low = std::max(axis.display(range.low), axis.low.value_or(-HUGE_VAL)),
+                   high = std::min(axis.display(range.high), axis.high.value_or(HUGE_VAL));
+      if (!(low < high)) continue;
+      line("set object rectangle {} behind fc rgb '#D55E00' fs solid 0.12 noborder",
+           across(range.vertical, low, high));
+      if (!range.name.empty())
+        plots_.push_back(fmt::format(
+            "NaN with boxes lc rgb '#D55E00' fs solid 0.12 border lc rgb '#D55E00' title {}",
+            literal(range.name)));
     }
     for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;
       const double at = mark.vertical ? x_.display(mark.at) : y_.display(mark.at);
-      if (mark.vertical) {
-        line(
-            "set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 1 nohead dt 3 lw 1 lc "
-            "'#404040' front",
-            at);
-        if (!mark.name.empty())
-          line(
-              "set label {} at first {:.9g},graph 0.03 rotate by 90 offset 0.8,0 tc '#404040' "
-              "front",
-              literal(mark.name), at);
-      } else {
-        line(
-            "set arrow from graph 0,first {0:.9g} to graph 1,first {0:.9g} nohead dt 3 lw 1 lc "
-            "'#404040' front",
-            at);
-      }
+      line("set arrow {} nohead dt {} lw 1 lc '#404040' front", across(mark.vertical, at, at),
+           dash_of(mark));
     }
     for (const auto& [mark, right, offset] : names_)
       line("set label {} at graph {:.2f},first {:.9g} right offset 0,{} tc '#404040' front",
            literal(mark->name), right, y_.display(mark->at), offset);
     for (const ReferenceLine* mark : unplaced_)
-      plots_.push_back(
-          fmt::format("NaN with lines dt 3 lw 1 lc '#404040' title {}", literal(entry_of(*mark))));
+      plots_.push_back(fmt::format("NaN with lines dt {} lw 1 lc '#404040' title {}",
+                                   dash_of(*mark), literal(entry_of(*mark))));
   }
 
   void write_axis(const char* name, const DisplayAxis& axis) {
-    line("set {}label {}{}", name, literal(axis.label), &axis == &top_ ? " offset 0,-0.5" : "");
-    const bool tight = name[0] == 'x' || panel_.image;
+    line("set {}label {}{}", name, literal(axis.label),
+         name == std::string_view("x2") ? " offset 0,-0.5" : "");
+    const bool tight = name[0] == 'x' || panel_.image || name == std::string_view("y2");
     const auto bound = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.9g}", *value) : std::string("*");
     };
@@ -437,6 +516,7 @@ class PanelScript {
 
   const Panel& panel_;
   int number_;
+  Layout layout_;
   std::string& out_;
   struct PlacedName {
     const ReferenceLine* mark;
@@ -445,11 +525,11 @@ class PanelScript {
     double right, offset;
   };
 
-  // Size in pixels, a little less than that of gnuplot's frame in a panel without title.
-  static constexpr double frame_width = 410, frame_height = 300;
-  DisplayAxis x_, y_, top_;
-  /// Height of the frame in pixels; 0: the limits are unknown, so texts cannot avoid curves.
-  double height_ = 0;
+  static constexpr const char* below = "below Left reverse";
+  DisplayAxis x_, y_;
+  std::optional<DisplayAxis> top_, right_;
+  /// Size of the frame in pixels; 0: the limits are unknown, so texts cannot avoid curves.
+  double width_ = 0, height_ = 0;
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
   std::vector<PlacedName> names_;
@@ -460,45 +540,74 @@ class PanelScript {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, PictureFormat format) {
+std::string gnuplot_script(const Figure& figure, PictureFormat format,
+                           std::optional<double> width) {
   require(!figure.panels.empty(), "figure", figure.panels.size(),
           "panels given; give at least one");
   const int panels = static_cast<int>(figure.panels.size());
-  const int columns =
+  int columns =
       std::min(panels, figure.columns > 0
                            ? figure.columns
                            : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels)))));
+  Layout layout;
+  if (width) {
+    constexpr double inch = 0.0254, dots = 96, least_panel = 300;
+    const double whole = *width / inch * dots;
+    columns = std::min(columns, std::max(1, static_cast<int>(whole / least_panel)));
+    layout = {.width = whole / columns, .height = 0.78 * whole / columns, .font = 7.0 / 72 * dots};
+  }
   const int rows = (panels + columns - 1) / columns;
-  const int width = columns * panel_width;
-  const int height = rows * panel_height + (figure.title.empty() ? 0 : title_height);
+  std::string body;
+  std::vector<PanelScript> scripts;
+  // Panels of a row have the same height, with room for the longest legend below them.
+  std::vector<int> legends(static_cast<std::size_t>(rows), 0);
+  for (int k = 0; k < panels; ++k) {
+    scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout, body);
+    int& legend = legends[static_cast<std::size_t>(k / columns)];
+    legend = std::max(legend, scripts.back().legend_rows());
+  }
+  const auto height_of = [&](int row) {
+    const int legend = legends[static_cast<std::size_t>(row)];
+    return layout.height + (legend > 0 ? (legend + 0.5) * layout.line() : 0);
+  };
+  const double title = figure.title.empty() ? 0 : 2.2 * layout.font;
+  const double across = columns * layout.width;
+  double down = title;
+  for (int row = 0; row < rows; ++row) down += height_of(row);
+  double top = down - title;
+  for (int k = 0; k < panels; ++k) {
+    const int row = k / columns, column = k % columns;
+    if (column == 0) top -= height_of(row);
+    scripts[static_cast<std::size_t>(k)].write(
+        fmt::format("set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", column / double(columns),
+                    top / down, 1.0 / columns, height_of(row) / down) +
+            (k == 0 && title > 0 ? fmt::format("set label {} at screen 0.5,{:.6f} center\n",
+                                               literal(figure.title), 1 - 0.5 * title / down)
+                                 : ""),
+        legends[static_cast<std::size_t>(row)]);
+  }
   std::string out;
+  // Sizes of pdfcairo are in inches; a picture for a screen has 100 pixels to an inch.
+  const double points = width ? 96 : 100;
   if (format == PictureFormat::png) {
+    const double fine = width ? 300.0 / 96 : 2;
     out += fmt::format(
-        "set terminal pngcairo enhanced size {},{} font 'Sans,10' fontscale 2 linewidth 2 "
-        "pointscale 2 "
-        "dashlength 1.6 background '#ffffff'\n",
-        2 * width, 2 * height);
+        "set terminal pngcairo enhanced size {:.0f},{:.0f} font 'Sans,{:.3g}' fontscale {:.4g} "
+        "linewidth {:.3g} pointscale {:.3g} dashlength 1.6 background '#ffffff'\n",
+        fine * across, fine * down, layout.font / 1.2, fine, fine, fine);
   } else if (format == PictureFormat::pdf) {
-    constexpr double points_per_inch = 100;
     out += fmt::format(
-        "set terminal pdfcairo enhanced size {:.2f}in,{:.2f}in font 'Sans,9' linewidth 1 "
-        "pointscale 0.7 "
-        "dashlength 0.8 background '#ffffff'\n",
-        width / points_per_inch, height / points_per_inch);
+        "set terminal pdfcairo enhanced size {:.4f}in,{:.4f}in font 'Sans,{:.3g}' linewidth {} "
+        "pointscale {} dashlength 0.8 background '#ffffff'\n",
+        across / points, down / points, 0.75 * layout.font, width ? 0.7 : 1, width ? 0.5 : 0.7);
   } else {
     out += fmt::format(
-        "set terminal svg enhanced size {},{} dynamic standalone font 'sans-serif,12' linewidth 1 "
-        "dashlength 0.8 background '#ffffff'\n",
-        width, height);
+        "set terminal svg enhanced size {:.0f},{:.0f} {} standalone font 'sans-serif,{:.4g}' "
+        "linewidth {} dashlength 0.8 background '#ffffff'\n",
+        across, down, width ? "fixed" : "dynamic", layout.font, width ? 0.8 : 1);
   }
   out += "set encoding utf8\n";
-  out += fmt::format("set multiplot layout {},{}", rows, columns);
-  if (!figure.title.empty()) out += " title " + literal(figure.title);
-  out += '\n';
-  int number = 0;
-  for (const Panel& panel : figure.panels) PanelScript(panel, ++number, out).write();
-  out += "unset multiplot\n";
-  return out;
+  return out + "set multiplot\n" + body + "unset multiplot\n";
 }
 
 }  // namespace salebra::figures

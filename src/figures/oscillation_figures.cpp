@@ -34,15 +34,15 @@ Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {
   panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
                                : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
   panel.curves.push_back({.x = column(cycle, &CycleSample::t), .y = std::move(values), .color = 0});
-  panel.lines.push_back({.at = lossless ? 0.0 : 1.0});
+  if (!lossless) panel.lines.push_back({.at = 1, .name = drag ? "Eq. (15)" : "Eq. (12)"});
   return panel;
 }
 
 Panel loop_panel(const OscillationOutcome& outcome) {
   Panel panel;
   panel.title = "loop";
-  panel.x = {.label = "x", .unit = "m"};
-  panel.y = {.label = "F_x", .unit = "N"};
+  panel.x = axis_of("tangential", false, "displacement x");
+  panel.y = axis_of("tangential_force", false, "tangential force F_x");
   const auto add = [&](const char* name, const CycleResult& cycle) {
     panel.curves.push_back({.name = name,
                             .x = column(cycle, &CycleSample::tangential),
@@ -59,7 +59,10 @@ Panel loop_panel(const OscillationOutcome& outcome) {
 
 Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
                  const std::vector<std::string>& names) {
-  Figure figure;
+  Figure figure{.kind = "oscillation",
+                .caption =
+                    "Cells that are always in contact (black) and sometimes (grey), and the "
+                    "work over a cycle."};
   const bool single = outcomes.size() == 1;
   if (!single) {
     figure.title = "Contact regions and work over a cycle";
@@ -68,7 +71,9 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   for (std::size_t k = 0; k < outcomes.size(); ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
   for (const OscillationOutcome& outcome : outcomes)
-    figure.panels.push_back(work_panel(outcome, single ? "work" : ""));
+    figure.panels.push_back(
+        work_panel(outcome, "W = " + error_text(outcome.work_per_cycle(), outcome.error_estimate(),
+                                                Dimension::energy)));
   for (const OscillationOutcome& outcome : outcomes)
     if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
   return figure;

@@ -12,9 +12,11 @@
 namespace salebra::figures {
 
 Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
-  Curve mean{.name = "computed"}, slow{.name = "static friction and Γv"};
+  Curve mean{.name = "computed", .quantity = "friction_coefficient"},
+      slow{.name = "static friction and Γv"};
   slow.style = Style::dashed;
-  Curve total{.name = "whole"}, opening{.name = "springs that open"};
+  Curve total{.name = "whole", .quantity = "work_per_cycle"},
+      opening{.name = "springs that open", .quantity = "relaxation_work"};
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
@@ -27,8 +29,11 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
     opening.y.push_back(state.relaxation_work);
   }
   const Axis x = axis_of("velocity", spans_decades(mean.x));
-  Figure figure;
-  figure.columns = 2;
+  Figure figure{.kind = "sliding",
+                .caption =
+                    "Friction of steady sliding beside a normal oscillation, and the energy "
+                    "lost in a normal cycle.",
+                .columns = 2};
   figure.panels.push_back({.title = "Friction coefficient of steady sliding",
                            .x = x,
                            .y = {.label = "mean tangential over mean normal force"},
@@ -36,7 +41,7 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   figure.panels.back().curves = {mean, slow};
   figure.panels.push_back({.title = "Energy dissipated in a normal cycle",
                            .x = x,
-                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(total.y)},
+                           .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W"),
                            .legend = Legend::top_left});
   figure.panels.back().curves = {total, opening};
   return figure;
@@ -46,8 +51,7 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
   const bool relative = !problem.velocity_ratios.empty();
   const std::vector<double>& along = relative ? problem.velocity_ratios : problem.velocities;
   const std::vector<double>& amplitudes = problem.normal_amplitude;
-  Figure figure;
-  figure.columns = 2;
+  Figure figure{.kind = "sliding_map", .columns = 2};
   const auto panel = [&](const char* title, Axis scale, double SteadySliding::*member) {
     Image image{.x = along, .y = amplitudes, .scale = std::move(scale)};
     image.values = Field(Index(along.size()), Index(amplitudes.size()));
@@ -71,7 +75,10 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
 }
 
 Figure figure_of(const RegimeMap& map, double omega) {
-  Figure figure;
+  Figure figure{.kind = "regimes",
+                .caption =
+                    "Loss of a slow oscillation over that without slip, with the borders of "
+                    "the regimes."};
   Panel& panel = figure.panels.emplace_back();
   panel.title = "Loss of a slow oscillation over that without slip";
   const auto axis = [](const char* label, const char* unit, const std::vector<double>& values) {
@@ -84,11 +91,14 @@ Figure figure_of(const RegimeMap& map, double omega) {
   };
   panel.x = axis("velocity v", "m/s", map.velocity);
   panel.y = axis("excursion X", "m", map.excursion);
-  panel.image =
-      Image{.x = map.velocity,
-            .y = map.excursion,
-            .values = map.loss_ratio,
-            .scale = {.label = "W / W(no slip)", .logarithmic = true, .low = 1, .high = 1e3}};
+  panel.image = Image{.x = map.velocity,
+                      .y = map.excursion,
+                      .values = map.loss_ratio,
+                      .scale = {.quantity = "loss_ratio",
+                                .label = "W / W(no slip)",
+                                .logarithmic = true,
+                                .low = 1,
+                                .high = 1e3}};
   Curve no_slip{.name = "no slip below", .x = map.velocity, .color = 6};
   Curve sliding{.name = "sliding above", .x = map.velocity, .color = 1};
   Curve cycle{.name = "one normal cycle", .x = map.velocity, .color = 7};
@@ -99,7 +109,7 @@ Figure figure_of(const RegimeMap& map, double omega) {
                                                                   : ContactParameters::unknown);
     sliding.y.push_back(std::max(map.sliding_excursion, cycle.y.back()));
   }
-  Curve critical{.name = "v_c", .style = Style::dotted, .color = 6};
+  Curve critical{.name = "critical velocity v_c", .style = Style::dotted, .color = 6};
   if (map.critical_velocity > *panel.x.low && map.critical_velocity < *panel.x.high) {
     critical.x.assign(2, map.critical_velocity);
     critical.y = {*panel.y.low, *panel.y.high};
@@ -125,8 +135,11 @@ Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double 
   for (const double offset : full.slider_offset) force.y.push_back(-stiffness * offset);
   for (const double offset : averaged.slider_offset)
     averaged_force.y.push_back(-stiffness * offset);
-  Figure figure;
-  figure.columns = 2;
+  Figure figure{.kind = "slider",
+                .caption =
+                    "Motion of a slider on a contact that oscillates, by the full equation and "
+                    "by the averaged one.",
+                .columns = 2};
   figure.panels.push_back({.title = "Velocity of the slider",
                            .x = axis_of("time"),
                            .y = {.label = "velocity", .unit = "m/s"},

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure of a surface: height map, spectrum with fit, height distribution.
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <salebra/figures/figures.hpp>
 #include <salebra/surface/bearing.hpp>
+#include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/twin.hpp>
+#include <utility>
 
 #include "axes.hpp"
 
@@ -17,11 +23,13 @@ namespace {
 Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
   const RadialSpectrum radial = radial_spectrum(spectrum, 6);
   Panel panel;
-  panel.title = "power spectral density";
-  panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
-  panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
+  panel.title = hurst.found() ? fmt::format("Hurst exponent H = {:.2f} ({:.2f} … {:.2f})",
+                                            hurst.value, hurst.low, hurst.high)
+                              : "power spectral density";
+  panel.x = axis_of("wavenumber", true, "wave number q");
+  panel.y = axis_of("psd", true, "power spectral density C(q)");
   panel.legend = Legend::bottom_left;
-  Curve measured{.name = "radial mean", .style = Style::line_and_points};
+  Curve measured{.name = "radial mean, 95 %", .quantity = "psd", .style = Style::line_and_points};
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
@@ -30,6 +38,13 @@ Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) 
     if (!(radial.psd[k] > 1e-20 * strongest)) continue;
     measured.x.push_back(radial.wavenumber[k]);
     measured.y.push_back(radial.psd[k]);
+    // A mode and its mirror image are one number with two degrees of freedom.
+    const double freedom = static_cast<double>(radial.modes[k]) / spectrum.correlated_modes;
+    const auto limit = [&](double share) {
+      return freedom * radial.psd[k] / gsl_cdf_chisq_Pinv(share, freedom);
+    };
+    measured.low.push_back(limit(0.975));
+    measured.high.push_back(limit(0.025));
   }
   panel.curves.push_back(std::move(measured));
   if (hurst.found()) {
@@ -43,9 +58,7 @@ Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) 
       level += modes * radial.psd[k] * std::pow(q, 2 * (1 + hurst.value));
       weight += modes;
     }
-    Curve law{
-        .name = fmt::format("H = {:.2f} ({:.2f} … {:.2f})", hurst.value, hurst.low, hurst.high),
-        .style = Style::dashed};
+    Curve law{.name = "power law q^{−2(1+H)}", .style = Style::dashed};
     for (const double q : {hurst.wavenumber_min, hurst.wavenumber_max}) {
       law.x.push_back(q);
       law.y.push_back(level / weight * std::pow(q, -2 * (1 + hurst.value)));
@@ -60,8 +73,8 @@ Panel distribution_panel(const Surface& surface) {
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
   Panel panel;
   panel.title = fmt::format("skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
-  panel.x = {.label = "height", .unit = "m"};
-  panel.y = {.label = "density", .unit = "1/m"};
+  panel.x = axis_of("height", false, "height");
+  panel.y = axis_of("height_density", false, "density");
   panel.curves.push_back({.name = "heights",
                           .x = histogram.height,
                           .y = histogram.height_density,
@@ -89,29 +102,131 @@ SurfaceSpectrum spectrum_of(const Surface& surface) {
 }
 
 Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
-  Figure figure;
+  const HeightStatistics statistics = height_statistics(surface);
+  Figure figure{
+      .kind = "surface",
+      .caption = fmt::format(
+          "Heights of the surface ({} x {} points), its radial power spectral density with "
+          "the 95 % interval of each mean and the fitted power law, and the distribution "
+          "of the heights beside the Gaussian of the same mean and rms height.",
+          surface.grid.nx, surface.grid.ny)};
   figure.panels.push_back(
-      map_panel(surface.grid, surface.heights, "heights", {.label = "height", .unit = "m"}));
+      map_panel(surface.grid, surface.heights,
+                "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3),
+                axis_of("heights", false, "height")));
   if (of.spectrum && of.spectrum->psd.maxCoeff() > 0)
     figure.panels.push_back(spectrum_panel(*of.spectrum, of.hurst));
-  if (height_statistics(surface).rms_height > 0)
-    figure.panels.push_back(distribution_panel(surface));
+  if (statistics.rms_height > 0) figure.panels.push_back(distribution_panel(surface));
   figure.columns = static_cast<int>(figure.panels.size());
   return figure;
 }
 
+Figure figure_of(const Surface& surface) { return figure_of(surface, spectrum_of(surface)); }
+
 Figure figure_of(const SurfaceTwin& twin) {
   Panel panel;
-  panel.title = "power spectral density of the surface";
-  panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
-  panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
+  panel.title = "Hurst exponent H = " + interval_text(twin.hurst.value, twin.hurst.low,
+                                                      twin.hurst.high, Dimension::dimensionless);
+  if (std::isnan(twin.hurst.value)) panel.title = "power spectral density of the surface";
+  panel.x = axis_of("wavenumber", true, "wave number q");
+  panel.y = axis_of("psd", true, "power spectral density C(q)");
   panel.legend = Legend::bottom_left;
-  panel.curves.push_back({.name = "by all scans, 95 %",
+  panel.curves.push_back({.name = "all scans together, 95 %",
+                          .quantity = "psd",
                           .x = twin.spectrum.wavenumber,
                           .y = twin.spectrum.psd,
                           .low = twin.spectrum.low,
                           .high = twin.spectrum.high});
-  return {.panels = {panel}};
+  return {.kind = "twin",
+          .caption =
+              "Power spectral density of the surface that all scans have in common, with its "
+              "95 % band.",
+          .panels = {panel}};
+}
+
+namespace {
+
+/// A figure of one panel with one curve.
+Figure line_figure(std::string kind, Axis x, Axis y, std::vector<double> along,
+                   std::vector<double> values, Style style = Style::line) {
+  Panel panel{.x = std::move(x), .y = std::move(y)};
+  panel.curves.push_back({.x = std::move(along), .y = std::move(values), .style = style});
+  return {.kind = std::move(kind), .panels = {panel}};
+}
+
+}  // namespace
+
+Figure figure_of(const RadialSpectrum& spectrum) {
+  return line_figure("radial_spectrum", axis_of("wavenumber", true, "wave number q"),
+                     axis_of("psd", true, "power spectral density C(q)"), spectrum.wavenumber,
+                     spectrum.psd, Style::line_and_points);
+}
+
+Figure figure_of(const ProfilePsd& spectrum) {
+  return line_figure("profile_psd", axis_of("wavenumber", true, "wave number q"),
+                     axis_of("profile_psd", true, "power spectral density C_1(q)"),
+                     spectrum.wavenumber, spectrum.psd);
+}
+
+Figure figure_of(const HeightHistogram& histogram) {
+  return line_figure("height_histogram", axis_of("height", false, "height"),
+                     axis_of("height_density", false, "density"), histogram.height,
+                     histogram.height_density, Style::line_and_points);
+}
+
+Figure figure_of(const Correlation& correlation) {
+  return line_figure("correlation", axis_of("distance", false, "distance"),
+                     axis_of("autocorrelation", false, "autocorrelation"), correlation.distance,
+                     correlation.autocorrelation);
+}
+
+Figure figure_of(const ScaleDependence& slopes) {
+  return line_figure("scale_dependence", axis_of("spacing", true, "distance"),
+                     axis_of("profile_slope", true, "rms slope"), slopes.spacing,
+                     slopes.profile_slope, Style::line_and_points);
+}
+
+Figure figure_of(const BearingCurve& curve) {
+  std::vector<double> part, height;
+  for (int k = 0; k <= 200; ++k) {
+    part.push_back(k / 200.0);
+    height.push_back(curve.height(part.back()));
+  }
+  return line_figure("bearing_curve", {.label = "part of the surface above"},
+                     axis_of("height", false, "height"), part, height);
+}
+
+Figure figure_of(const PowerSpectrum& spectrum) {
+  // Sorted along q_x, since an image needs increasing coordinates.
+  std::vector<double> along = spectrum.wavenumbers_x();
+  std::vector<Index> order(along.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  std::ranges::sort(order, {}, [&](Index i) { return along[static_cast<std::size_t>(i)]; });
+  std::ranges::sort(along);
+  Field values(spectrum.psd.rows(), spectrum.psd.cols());
+  for (Index i = 0; i < values.rows(); ++i)
+    values.row(i) = spectrum.psd.row(order[static_cast<std::size_t>(i)]);
+  return {.kind = "power_spectrum",
+          .panels = {{.x = {.label = "wave number q_x", .unit = "rad/m"},
+                      .y = {.label = "wave number q_y", .unit = "rad/m"},
+                      .image = Image{.x = along,
+                                     .y = spectrum.wavenumbers_y(),
+                                     .values = std::move(values),
+                                     .scale = axis_of("psd", true, "C(q)")},
+                      .equal_scales = true}}};
+}
+
+Figure figure_of(const CorrelationMap& map) {
+  Image image{.values = map.autocorrelation,
+              .scale = axis_of("autocorrelation", false, "autocorrelation"),
+              .palette = Palette::diverging};
+  for (Index i = 0; i < map.autocorrelation.rows(); ++i) image.x.push_back(map.lag_x(i));
+  for (Index j = 0; j < map.autocorrelation.cols(); ++j) image.y.push_back(map.lag_y(j));
+  return {.kind = "correlation_map",
+          .panels = {{.x = {.label = "distance along x", .unit = "m"},
+                      .y = {.label = "distance along y", .unit = "m"},
+                      .image = std::move(image),
+                      .equal_scales = true}}};
 }
 
 }  // namespace salebra::figures

@@ -15,10 +15,14 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     for (const ViscoelasticLoss& loss : losses) out.y.push_back(value(loss));
     return out;
   };
-  Figure figure{.kind = "viscoelastic", .columns = 2};
+  Figure figure{.kind = "viscoelastic",
+                .caption =
+                    "Energy lost in a cycle on a viscoelastic body by its causes, beside the loss "
+                    "of an elastic body of the relaxed modulus, and the complex modulus.",
+                .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = x,
-                           .y = {.label = "W", .unit = "J", .logarithmic = true},
+                           .y = axis_of("work_per_cycle", true, "loss W"),
                            .legend = Legend::top_left});
   figure.panels.back().curves = {
       curve("material, normal", "normal_material_work",

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers behind the pictures, and those of the comparison's answer.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <numbers>
 #include <regex>
 #include <salebra/io/result_file.hpp>
+#include <set>
 #include <sstream>
 
 #include "drawing.hpp"
@@ -115,7 +119,8 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
                  logarithms(numbers(
                      answer["models"]["bem"]["damping"]["damping_constant_closed_form"]["mean"])));
   // The window of the fit, from one to two and a half rms heights.
-  CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
+  CHECK_THAT(drawing.script(), Contains("rectangle from graph 0,first 1 to graph 1,first 2.") &&
+                                   Contains("window of the fit"));
 
   // Two surfaces have intervals, with the mean between their limits.
   test.write("study.toml", study_text("seeds = [3, 4]"));
@@ -213,16 +218,18 @@ struct TextBox {
 std::vector<TextBox> texts_of(const std::string& svg) {
   static const std::regex pattern(
       "translate\\(([-0-9.]+),([-0-9.]+)\\)\" "
-      "stroke[^>]*text-anchor=\"(\\w+)\">\\s*<text>(.*?)</text>");
+      "stroke[^>]*font-size=\"([0-9.]+)\"[^>]*text-anchor=\"(\\w+)\">\\s*<text>(.*?)</text>");
   std::vector<TextBox> boxes;
   for (std::sregex_iterator at(svg.begin(), svg.end(), pattern), end; at != end; ++at) {
-    const std::string text = std::regex_replace((*at)[4].str(), std::regex("<[^>]*>"), "");
+    const std::string text = std::regex_replace((*at)[5].str(), std::regex("<[^>]*>"), "");
     const double x = std::stod((*at)[1]), y = std::stod((*at)[2]);
-    const double width = 6.0 * double(std::ranges::count_if(text, [](char c) {
+    if (text.empty()) continue;  // of a tic without a number
+    const double font = std::stod((*at)[3]);
+    const double width = font / 2 * double(std::ranges::count_if(text, [](char c) {
                            return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
                          }));
-    const double left = (*at)[3] == "start" ? x : (*at)[3] == "end" ? x - width : x - width / 2;
-    boxes.push_back({text, left, left + width, y + 1, y - 9});
+    const double left = (*at)[4] == "start" ? x : (*at)[4] == "end" ? x - width : x - width / 2;
+    boxes.push_back({text, left, left + width, y + font / 12, y - 0.75 * font});
   }
   return boxes;
 }
@@ -254,6 +261,46 @@ std::vector<std::pair<double, double>> curves_of(const std::string& svg) {
   return points;
 }
 
+/// No text of a picture may lie on a curve or on another text. on_curves: texts that interrupt a
+/// curve, the values of contour lines.
+void check_texts(const std::string& svg, const std::set<std::string>& on_curves = {}) {
+  const auto texts = texts_of(svg);
+  const auto curves = curves_of(svg);
+  REQUIRE(texts.size() > 5);
+  REQUIRE(curves.size() > 50);
+  for (const TextBox& one : texts) {
+    CAPTURE(one.text);
+    CHECK(one.top > 0);
+    CHECK((on_curves.contains(one.text) || std::ranges::none_of(curves, [&](const auto& point) {
+             const auto [x, y] = point;
+             return x > one.left && x < one.right && y > one.top && y < one.bottom;
+           })));
+    for (const TextBox& other : texts) {
+      if (&one == &other) continue;
+      CAPTURE(other.text);
+      CHECK_FALSE((one.left < other.right && other.left < one.right && one.top < other.bottom &&
+                   other.top < one.bottom));
+    }
+  }
+}
+
+/// The commands of docs/figures.md, with fewer points, steps and values.
+std::vector<std::string> commands_of_page() {
+  std::ostringstream text;
+  text << std::ifstream(std::filesystem::path(SALEBRA_README).parent_path() / "docs/figures.md")
+              .rdbuf();
+  std::string page = text.str();
+  page = std::regex_replace(page, std::regex("\\\\\n"), " ");
+  std::vector<std::string> commands;
+  static const std::regex command("\nsalebra (.*?)( --plot \\S+)\n"),
+      count("(--points|--map-phases|--map-radii|--steps|--intervals) [0-9]+"),
+      values("(:[^ :]+):[0-9]+");
+  for (std::sregex_iterator at(page.begin(), page.end(), command), end; at != end; ++at)
+    commands.push_back(
+        std::regex_replace(std::regex_replace((*at)[1].str(), count, "$1 32"), values, "$1:4"));
+  return commands;
+}
+
 }  // namespace
 
 TEST_CASE("No text of a picture of a study lies on a curve or on another text", "[study][plot]") {
@@ -273,26 +320,152 @@ TEST_CASE("No text of a picture of a study lies on a curve or on another text", 
         std::string("compare adhesive.toml --no-report --no-stick")}) {
     CAPTURE(command);
     test.done(command + " --plot a.svg --overwrite");
-    const std::string svg = test.read("a.svg");
-    const auto texts = texts_of(svg);
-    const auto curves = curves_of(svg);
-    REQUIRE(texts.size() > 40);
-    REQUIRE(curves.size() > 1000);
-    for (const TextBox& one : texts) {
-      CAPTURE(one.text);
-      CHECK(one.top > 0);
-      CHECK(std::ranges::none_of(curves, [&](const auto& point) {
-        const auto [x, y] = point;
-        return x > one.left && x < one.right && y > one.top && y < one.bottom;
-      }));
-      for (const TextBox& other : texts) {
-        if (&one == &other) continue;
-        CAPTURE(other.text);
-        CHECK_FALSE((one.left < other.right && other.left < one.right && one.top < other.bottom &&
-                     other.top < one.bottom));
-      }
+    check_texts(test.read("a.svg"));
+  }
+}
+
+TEST_CASE("Texts of the pictures of the documentation keep apart at the widths of journals",
+          "[plot]") {
+  const std::vector<std::string> commands = commands_of_page();
+  REQUIRE(commands.size() >= 10);
+  const ProgramTest test;  // later commands read the files of earlier ones
+  for (const std::string& command : commands) {
+    CAPTURE(command);
+    test.done(command + " --quiet --overwrite --plot a.json");
+    std::set<std::string> contours;
+    const json figure = json::parse(test.read("a.json"));
+    for (const json& panel : figure["panels"])
+      if (panel.contains("image"))
+        for (const double value : panel["image"]["contours"])
+          contours.insert(fmt::format("{:g}", value));
+    for (const auto& [width, pixels] : {std::pair("85mm", 321), {"170mm", 643}}) {
+      CAPTURE(width);
+      test.done(command + " --quiet --overwrite --plot a.svg --figure-width " + width);
+      const std::string svg = test.read("a.svg");
+      // 96 pixels to an inch.
+      CHECK_THAT(svg, Contains(fmt::format("width=\"{}\"", pixels)));
+      check_texts(svg, contours);
     }
   }
+}
+
+namespace {
+
+/// The member of an object, at any depth, that has this name.
+const json* member_of(const json& object, const std::string& name) {
+  if (!object.is_object()) return nullptr;
+  if (object.contains(name)) return &object[name];
+  for (const json& inner : object)
+    if (const json* found = member_of(inner, name)) return found;
+  return nullptr;
+}
+
+/// The curves of a figure whose y is this quantity.
+std::vector<json> curves_with(const json& figure, const std::string& quantity) {
+  std::vector<json> found;
+  for (const json& panel : figure["panels"])
+    for (const json& curve : panel["curves"]) {
+      const std::string own = curve["quantity"];
+      if ((own.empty() ? panel["y"]["quantity"].get<std::string>() : own) == quantity)
+        found.push_back(curve);
+    }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("The numbers of every picture are those of the answer of its command", "[plot]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [3]"));
+  test.done(
+      "generate --points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um "
+      "--rms-height "
+      "10nm -o rough.h5");
+  test.done(
+      "contact rough.h5 --pressure 2:60MPa:10 --stiffness -o curve.h5 --contact-modulus 10GPa "
+      "--poisson 0.3");
+  const std::string body = " --contact-modulus 10GPa --poisson 0.3 ",
+                    law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ",
+                    drag = " --drag-velocity 1mm/s --frequency 20kHz ";
+  struct Drawn {
+    std::string command;
+    std::vector<std::string> quantities;
+    /// The error of a quantity, in the answer; empty: none is drawn.
+    std::string error = "";
+  };
+  for (const auto& [command, quantities, error] :
+       {Drawn{"contact rough.h5 --pressure 2:60MPa:10 --stiffness" + body,
+              {"pressure", "contact_area_fraction", "normal_stiffness", "tangential_stiffness"}},
+        Drawn{"damping --normal-amplitude 1:50nm:4" + law + drag,
+              {"work_per_cycle", "small_amplitude_work", "damping_constant"}},
+        Drawn{"damping --normal-amplitude 1:50nm:4 --friction-coefficient 0.3 --excursion 1um" +
+                  law + drag,
+              {"work_per_cycle", "damping_constant", "damping_constant_without_slip"}},
+        Drawn{"damping --curve curve.h5 --normal-force 0.1mN --poisson 0.3 --normal-amplitude "
+              "0.1:1nm:4" +
+                  drag,
+              {"work_per_cycle", "damping_constant"},
+              "damping_constant"},
+        Drawn{"joint --friction-coefficient 0.3 --tangential-amplitudes 1:10nm:4" + law,
+              {"work_per_cycle"}},
+        Drawn{"sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
+              "--velocities 1um/s,10um/s,1mm/s" +
+                  law,
+              {"friction_coefficient", "relaxation_work"}},
+        Drawn{"viscoelastic --law paraboloid --radius 5mm --indentation 20um --prony "
+              "1MPa:1ms,2MPa:20ms --normal-amplitude 2um --drag-velocity 1um/s --frequency 10,100 "
+              "--steps 64" +
+                  body,
+              {"relaxation_work", "elastic_work", "storage_modulus", "loss_modulus"}}}) {
+    CAPTURE(command);
+    const json answer = test.answer(command + " --json --plot f.json --overwrite");
+    const json figure = json::parse(test.read("f.json"));
+    CHECK_FALSE(figure["kind"].get<std::string>().empty());
+    CHECK_FALSE(figure["caption"].get<std::string>().empty());
+    for (const std::string& quantity : quantities) {
+      CAPTURE(quantity);
+      const json* table = member_of(answer, quantity);
+      REQUIRE(table);
+      const auto curves = curves_with(figure, quantity);
+      REQUIRE_FALSE(curves.empty());
+      // Both come from the same numbers, and both are written with all digits.
+      CHECK(std::ranges::any_of(curves, [&](const json& curve) { return curve["y"] == *table; }));
+      if (quantity != error) continue;
+      const json* errors = member_of(answer, quantity + "_error");
+      REQUIRE(errors);
+      const json& curve = curves.front();
+      for (std::size_t k = 0; k < table->size(); ++k) {
+        const double value = (*table)[k], bar = (*errors)[k];
+        CHECK(curve["high"][k].get<double>() - value == Approx(bar).epsilon(1e-6));
+        CHECK(value - curve["low"][k].get<double>() == Approx(bar).epsilon(1e-6));
+      }
+    }
+    for (const json& panel : figure["panels"])
+      for (const json& line : panel["lines"]) CHECK_FALSE(line["name"].get<std::string>().empty());
+  }
+}
+
+TEST_CASE("--plot without a name names the picture as its input", "[plot]") {
+  const ProgramTest test;
+  test.write(
+      "scan.txt",
+      "# Width: 4 um\n# Height: 4 um\n# Value units: nm\n1 2 1 3\n1 4 1 1\n2 1 1 1\n1 3 1 2\n");
+  test.done("statistics scan.txt --plot");
+  CHECK(test.read("scan.png").substr(1, 3) == "PNG");
+  check_refused(test.run("statistics scan.txt --plot"), "--overwrite");
+  test.done("statistics scan.txt --plot --overwrite");
+  test.done("statistics --plot other.svg scan.txt");
+  CHECK_THAT(test.read("other.svg"), Contains("</svg>"));
+  check_refused(test.run("statistics --plot scan.txt"), "scan.txt");
+  const std::string law =
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --normal-amplitude 1:50nm:6 ";
+  test.done(law + "--plot");
+  CHECK(test.read("damping.png").substr(1, 3) == "PNG");
+  check_refused(test.run(law + "--figure-width 85mm"), "needs a picture");
+  check_refused(test.run(law + "--figure-width 85mm --plot a.json"), "needs a picture");
+  check_refused(test.run(law + "--figure-width 5mm --plot a.png"), "from 60 mm to 1 m");
+  check_refused(test.run(law + "--figure-width wide --plot a.png"), "--figure-width");
 }
 
 TEST_CASE("The numbers of a comparison are those of its file, and the theories' of their formulas",
@@ -547,7 +720,8 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
   for (const std::string command : {"statistics flat.txt", "convert flat.txt o.h5"}) {
     INFO(command);
     const Drawing drawing(test, command);
-    CHECK_THAT(drawing.script(), Contains("'heights'") && !Contains("power spectral density"));
+    CHECK_THAT(drawing.script(),
+               Contains("'rms height 0 m'") && !Contains("power spectral density"));
   }
 }
 

@@ -10,22 +10,33 @@
 #include <vector>
 
 namespace salebra {
+class BearingCurve;
 class IndenterLaw;
+struct AsperityDamping;
+struct ContactSpots;
+struct Correlation;
+struct CorrelationMap;
+struct DamperMap;
 struct DamperSolution;
 struct DampingResult;
 struct ExponentialFit;
 struct ForceCurve;
 struct FrictionMap;
+struct HeightHistogram;
 struct JointLoss;
+struct LocalDecayLength;
 struct NormalContactState;
 struct OscillationOutcome;
 struct ParameterLists;
 struct RegimeMap;
+struct ScaleDependence;
 struct SliderMotion;
 struct SlidingPoint;
 struct SlidingProblem;
+struct SpotStatistics;
 struct StressMap;
 struct StudyResult;
+struct StudySolution;
 struct Surface;
 struct SurfaceTwin;
 struct TrajectoryDamping;
@@ -48,23 +59,38 @@ struct SurfaceSpectrum {
 SurfaceSpectrum spectrum_of(const Surface& surface);
 
 /// A surface in three panels: the map of its heights; its radial power spectral density with the
-/// fitted power law; the distribution of its heights with the Gaussian of the same mean and rms
+/// 95 % interval of each mean and the fitted power law; the distribution of its heights with the Gaussian of the same mean and rms
 /// height. The second panel is left out if there is no spectrum or if it is zero.
 Figure figure_of(const Surface& surface, const SurfaceSpectrum& of);
+Figure figure_of(const Surface& surface);
+/// Spectra, heights and correlations.
+Figure figure_of(const PowerSpectrum& spectrum);
+Figure figure_of(const RadialSpectrum& spectrum);
+Figure figure_of(const ProfilePsd& spectrum);
+Figure figure_of(const HeightHistogram& histogram);
+Figure figure_of(const BearingCurve& curve);
+Figure figure_of(const Correlation& correlation);
+Figure figure_of(const CorrelationMap& map);
+Figure figure_of(const ScaleDependence& slopes);
 
 /// The power spectral density of a surface twin, which several scans have in common, with its 95 %
 /// band.
 Figure figure_of(const SurfaceTwin& twin);
 
 /// Pressure over mean gap with the fitted law and the window of the fit. Area and stiffness too, if
-/// the curve has them. Throws InvalidInput for a curve without a converged sample.
+/// the curve has them; with a fit also the local decay length and the deviation from the fit. Throws InvalidInput for a curve without a converged sample.
 Figure figure_of(const ForceCurve& curve, const std::optional<ExponentialFit>& fit);
 
 /// Pressure over indentation of loading and unloading; pressures may be tensile.
 Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading);
 
-/// Maps of pressure and gap.
+/// Maps of pressure (white where the bodies do not touch) and gap.
 Figure figure_of(const Grid2D& grid, const NormalContactState& state);
+/// The local decay length over the mean gap.
+Figure figure_of(const LocalDecayLength& local);
+/// The number of spots at least as large as an area, and the number in classes of size that double.
+Figure figure_of(const ContactSpots& spots);
+Figure figure_of(const SpotStatistics& spots);
 
 /// An indenter at rest (Fig. 1 of the paper): its profile and the deformed surface, the
 /// one-dimensional image on its springs, the pressure, and force F(δ) with contact radius a(δ).
@@ -97,6 +123,11 @@ Figure figure_of(const FrictionMap& map);
 Figure figure_of(const DamperSolution& answer, std::optional<double> falling_slope,
                  const std::vector<double>& angular_frequency);
 
+/// Damping constant γ over u_z and ω.
+Figure figure_of(const DamperMap& map);
+/// The losses of the summits in decreasing order.
+Figure figure_of(const AsperityDamping& loss);
+
 /// Friction and losses over the velocity, for one amplitude.
 Figure figure_of(const std::vector<SlidingPoint>& points, double friction);
 /// Mean friction and its derivative with respect to the velocity, over velocity and normal
@@ -127,11 +158,15 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses);
 
-/// Gap, area, stiffness and damping of all models over the pressure, with 95 % bands, and the
-/// damping constants of the study's table with their errors. A quantity that no model computes has
-/// no panel. One point of the parameter grid gives a square of four panels. Several points give a
+/// Gap, area, stiffness, damping and stiffness ratio of all models over the pressure, with 95 %
+/// bands, the damping constants of the study's table with their errors, and local decay lengths. A quantity that no model computes has
+/// no panel. One point of the parameter grid gives two panels in a row. Several points give a
 /// column each, and the panels of a row share their axes. varied: the parameters whose values are
 /// the titles of the columns.
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied);
+Figure figure_of(const StudyResult& result);
+/// The damping constants over the pressure with their 95 % limits, or with their numerical errors for
+/// a single surface; without slip too.
+Figure figure_of(const StudySolution& solution);
 
 }  // namespace salebra::figures
