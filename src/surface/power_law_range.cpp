@@ -198,7 +198,7 @@ IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& bes
       warm = tried;
       step *= 1.5;
     }
-    return inside + direction * step;
+    return std::clamp(inside + direction * step, least, greatest);
   };
   return {best.at[parameter], end(-1), end(1)};
 }

@@ -445,7 +445,7 @@ TEST_CASE("The numbers of every picture are those of the answer of its command",
   }
 }
 
-TEST_CASE("--plot without a name names the picture as its input", "[plot]") {
+TEST_CASE("A --plot without a name names the picture as its input", "[plot]") {
   const ProgramTest test;
   test.write(
       "scan.txt",

@@ -72,9 +72,10 @@ TEST_CASE("Intervals of H hold the truth of fractional Brownian maps of points a
                   1e-8 * pixel_means(FractionalBrownian(seed).surface(128 * pixel, hurst), pixel))),
               hurst);
   INFO(all.covered << " of " << all.found << ", half-width " << all.width / all.found);
-  CHECK(all.found == 12);
-  // At 95 %, fewer than 10 of 12 have a probability of 2 %.
-  CHECK(all.covered >= 10);
+  // An interval that covers 0 … 1 is not shown; a map of 128² may give one for H = 0.2.
+  CHECK(all.found >= 11);
+  // At 95 %, fewer than 9 of 11 have a probability of 2 %.
+  CHECK(all.covered >= 9);
 }
 
 TEST_CASE("Waves that the instrument does not show take no part in H", "[hurst]") {
