@@ -271,6 +271,8 @@ def holds(name, parameter, truth):
         if truth is None:
             return not parameter.seen
         return any(low <= truth + turn <= high for turn in (-math.pi, 0, math.pi))
+    if math.isnan(low) and math.isnan(high):  # nothing is said; one of them says where the other side is open
+        return False
     return not low > truth and not high < truth
 
 

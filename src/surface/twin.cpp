@@ -466,8 +466,11 @@ class TwinRun {
     name_scans_left_out();
     if (options_.leave_one_out) leave_out_each();
     replace_by_table();
+    describe_fit();
+    widen();
     const Ends ends = ends_of(forms_.best);
-    describe_fit(ends);
+    twin_.rolloff_ratio = ends.rolloff_ratio;
+    twin_.cutoff_ratio = ends.cutoff_ratio;
     draw(ends);
     set_band(ends);
     set_lay();
@@ -560,15 +563,13 @@ class TwinRun {
     if (better) forms_ = {std::move(table), {}, 0};
   }
 
-  void describe_fit(const Ends& ends) {
+  void describe_fit() {
     const Candidate& best = forms_.best;
     const TwinModel& model = best.model;
     twin_.form = model.law().form;
     twin_.form_ratio = forms_.ratio;
     twin_.bins = model.bins();
     twin_.misfit = best.misfit();
-    twin_.rolloff_ratio = ends.rolloff_ratio;
-    twin_.cutoff_ratio = ends.cutoff_ratio;
     for (std::size_t group = 0; group < model.data().size(); ++group) {
       const TwinData& data = model.data()[group];
       const TwinModel::Misfit of_law = model.misfit(best.fit.parameters, group);
@@ -582,6 +583,21 @@ class TwinRun {
         note(data.instrument + ": waves below " + length_text(across(2 * pi / data.tip_limit)) +
              " are left out, because the tip does not follow them");
     }
+  }
+
+  /// Skew heights modulate their short waves, so that powers of neighbouring wavelengths scatter
+  /// together, and more than those of Gaussian heights: by the misfit, which the limits follow.
+  void widen() {
+    const double scatter = forms_.best.misfit();
+    if (!skew_ || !(scatter > 1)) return;
+    const auto refit = [scatter](Candidate& one) {
+      one.model.set_scatter(scatter);
+      one.fit = minimised(one.model, one.fit.parameters);
+    };
+    refit(forms_.best);
+    if (!forms_.other) return;
+    refit(*forms_.other);
+    forms_.ratio = std::max(0.0, 2 * (forms_.other->fit.cost - forms_.best.fit.cost));
   }
 
   /// Draws parameters from the posterior. If the corner and the smooth form are nearly equally
@@ -668,6 +684,7 @@ class TwinRun {
       set_heights_of_table();
     else
       set_rolloff(ends);
+    allow_unseen_lay();
   }
 
   /// The spectrum across the lay, from the draws in elliptic waves.
@@ -700,11 +717,9 @@ class TwinRun {
       twin_.stretch.value = twin_.stretch.low = 1;
       twin_.stretch.high = found_.greatest_stretch;
       if (found_.greatest_stretch > 1.5)
-        note(
-            "a lay of up to " +
-            format_quantity(found_.greatest_stretch, Dimension::dimensionless, 2) +
-            " to 1 is possible, of which the limits of the other numbers know nothing; give larger "
-            "maps");
+        note("a lay of up to " +
+             format_quantity(found_.greatest_stretch, Dimension::dimensionless, 2) +
+             " to 1 is possible, for which the limits have room; give larger maps");
       return;
     }
     std::vector<double> turns;
@@ -723,9 +738,23 @@ class TwinRun {
       *angle += lay.angle;
   }
 
+  /// Room in the limits for a lay that the scans do not show but allow.
+  void allow_unseen_lay() {
+    const double stretch = found_.greatest_stretch;
+    if (found_.lay.stretch != 1 || !(stretch > 1) || !std::isfinite(stretch)) return;
+    const double root = std::sqrt(stretch);
+    twin_.rolloff.low /= root;
+    twin_.short_cutoff.low /= root;
+    twin_.rolloff_along.high *= root;
+    twin_.rms_slope.high *= slope_factor(stretch);
+  }
+
   void set_cutoff(const Ends& ends, const std::vector<double>& cutoffs) {
     if (ends.sees_cutoff()) {
       twin_.short_cutoff = interval(cutoffs, true);
+      // An ellipse whose ln of the stretch is off by δ smears the end of the spectrum over e^{±δ/2},
+      // and the fit finds the shorter waves of it: with 95 % for δ, half of two standard errors.
+      twin_.short_cutoff.high *= std::exp(found_.log_stretch_error);
       return;
     }
     const TwinModel& model = forms_.best.model;

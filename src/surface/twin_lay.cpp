@@ -38,6 +38,7 @@ double Lay::log_blur_slope(double v, double u_square) const {
 namespace {
 
 constexpr double two_sided = 1.96;
+constexpr double largest_step = 0.2;  ///< of ln of the stretch, from a solution that grids show
 constexpr double least_log_stretch = 0.03;  ///< smaller ones are errors of instruments
 constexpr double of_nyquist = 0.6;  ///< beyond this part of the Nyquist mode, sampling folds power
 constexpr double most_blur = 0.5;   ///< greatest q²σ² at which a lens' blur is divided out
@@ -208,13 +209,15 @@ class LaySearch {
     const Estimate none = sum_of(at_none), end = sum_of(at_end);
     const bool directed =
         none.length() > detail::significant_length * none.error() * scatter(at_none);
-    const double error = end.error() * scatter(at_end), log_stretch = std::log(lay.stretch);
+    // What the last step would still change is as uncertain.
+    const double error = std::hypot(end.error() * scatter(at_end), end.length()),
+                 log_stretch = std::log(lay.stretch);
     const bool significant = directed && log_stretch > detail::significant_length * error &&
                              log_stretch > least_log_stretch;
     refuse_differing_scans(at_end);
     refuse_other_spectra(significant ? ellipse : Ellipse{});
     // Without a solution, the rings of a stronger lay are beyond the grids or the cut-off.
-    if (directed && (end.error() > 0.3 || end.length() > 0.1 * end.error()))
+    if (directed && (end.error() > 0.3 || end.length() > largest_step))
       refuse(
           "have a lay, of whose strength their grids show too little; give larger maps of more "
           "points");
@@ -403,26 +406,33 @@ class LaySearch {
   /// elliptic wave numbers.
   Ellipse solved(const std::vector<Map>& maps, double from = 0,
                  double to = std::numeric_limits<double>::infinity()) const {
-    Ellipse ellipse, before;
-    double delta = 0, eta = 0;
+    Ellipse ellipse, before, best;
+    double delta = 0, eta = 0, shortest = std::numeric_limits<double>::infinity();
     for (int step = 0; step < 60; ++step) {
       const Estimate sum = sum_of(estimates(ellipse, maps), from, to);
       if (sum.weight == 0) {
         // Beyond a lay of which the grids show no ring: half of the last step.
         delta /= 2;
         eta /= 2;
-        if (std::hypot(delta, eta) < 1e-3) return before;
+        if (std::hypot(delta, eta) < 1e-3) return std::isfinite(shortest) ? best : before;
         ellipse = before.moved(delta, eta);
         continue;
       }
       before = ellipse;
-      const double length = sum.length(), factor = std::min(1.0, 0.7 / std::max(length, 1e-12));
+      const double length = sum.length();
+      if (length < shortest) {
+        shortest = length;
+        best = ellipse;
+      }
+      // Rings come and go as the ellipse changes, so that full steps may lead around the solution.
+      const double longest = step < 20 ? 1 : 0.4;
+      const double factor = std::min(longest, 0.7 / std::max(length, 1e-12));
       delta = factor * sum.delta;
       eta = factor * sum.eta;
       ellipse = ellipse.moved(delta, eta);
-      if (length < 1e-4) break;
+      if (length < 1e-4) return ellipse;
     }
-    return ellipse;
+    return best;
   }
 
   /// Square root of the scatter of the maps' estimates over what their modes explain, at least 1:

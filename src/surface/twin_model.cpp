@@ -18,8 +18,13 @@ using std::numbers::pi;
 constexpr double tail_freedom = 4, blur_freedom = 0.05;
 constexpr double min_gain_error = 1e-4;  ///< minimum standard deviation of a gain, for
                                          ///< calibrations of 0
-constexpr double bend_freedom = 1.5;     ///< standard deviation of second differences of ln C
-                                         ///< between knots
+/// Power of skew heights beyond the cut-off q_s, where waves that are sums of shorter and longer ones
+/// are all there is: about ∝ e^{−6q/q_s} within a factor of e, by the series in powers of the
+/// correlation, for transforms of Gaussian fields with skewness −0.7 to −2, Hurst exponents 0.45 to
+/// 0.95 and 4 to 40 wavelengths of the cut-off in the roll-off.
+constexpr double sums_decay = 6;
+constexpr double bend_freedom = 1.5;  ///< standard deviation of second differences of ln C
+                                      ///< between knots
 
 /// r − 1 − ln r for r = `ratio`, without cancellation near r = 1.
 double deviation(double ratio) {
@@ -111,17 +116,22 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
       // spectrum.
       constexpr double half_bin = 1.0724;  // √1.15, half of a bin's ratio
       const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
-      // Of skew heights, the bins beyond it contain sums of shorter and longer waves, which say
-      // little about it.
-      const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 1.4;
-      const double s = sums                         ? 10 * beyond_cutoff
-                       : edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
-                       : q > 0.8 * cutoff           ? beyond_cutoff
-                                                    : everywhere;
+      // Of skew heights, the bins beyond it contain sums of shorter and longer waves, of which the
+      // tail gives the power to a factor of e.
+      const bool sums = data_[g].tail && !data_[g].tip && edge > 0.95 && edge < 2.2;
+      const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
+                       : sums                     ? 2 * beyond_cutoff
+                       : q > 0.8 * cutoff         ? beyond_cutoff
+                                                  : everywhere;
       const double relative = data_[g].psd_error[bin];
       groups_[g].precisions.push_back(1 / (1 / data_[g].modes[bin] + s * s + relative * relative));
     }
   }
+}
+
+void TwinModel::set_scatter(double factor) {
+  for (Group& group : groups_)
+    for (double& precision : group.precisions) precision /= factor;
 }
 
 Eigen::VectorXd TwinModel::priors(const Eigen::VectorXd& parameters) const {
@@ -146,10 +156,10 @@ double TwinModel::tail(const Eigen::VectorXd& parameters, std::size_t group,
   if (at < 0) return 0;
   const TwinData& data = data_[group];
   const double q = data.wavenumber[bin];
-  const double weight = beyond(q, 2 * pi * std::exp(-parameters[law_.cutoff()]));
-  return weight == 0 ? 0
-                     : weight * data.noise *
-                           std::exp(parameters[at] - 5 * std::log(q / data.tail_reference));
+  const double cutoff = 2 * pi * std::exp(-parameters[law_.cutoff()]), weight = beyond(q, cutoff);
+  const double fall =
+      data.tip ? 5 * std::log(q / data.tail_reference) : sums_decay * (q / cutoff - 1);
+  return weight == 0 ? 0 : weight * data.noise * std::exp(parameters[at] - fall);
 }
 
 std::size_t TwinModel::evaluate(const Eigen::VectorXd& parameters, std::size_t group,
@@ -274,15 +284,15 @@ void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::
       if (own.blur >= 0) (*slopes)(row, own.blur) = factor * of_expected(at, law_.size());
       if (own.tail < 0) continue;
       (*slopes)(row, own.tail) = factor * tail(parameters, group, bin);
-      // Derivative of the tail's weight with respect to ln λ_s, the cut-off wavelength: the weight
-      // depends on the wave number relative to the cut-off.
+      // Derivative of the tail with respect to ln λ_s, the cut-off wavelength: its weight, and the
+      // power of skew heights, depend on the wave number relative to the cut-off.
       const double cutoff_waves =
           data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
+      const double of_tail = tail(parameters, group, bin);
+      double of_cutoff = data.tip ? 0 : -sums_decay * cutoff_waves * of_tail;
       if (cutoff_waves > 0.90 && cutoff_waves < 0.96)
-        (*slopes)(row, law_.cutoff()) +=
-            factor * data.noise * cutoff_waves / 0.06 *
-            std::exp(parameters[own.tail] -
-                     5 * std::log(data.wavenumber[bin] / data.tail_reference));
+        of_cutoff += of_tail * cutoff_waves / (cutoff_waves - 0.90);
+      (*slopes)(row, law_.cutoff()) += factor * of_cutoff;
     }
   }
 }

@@ -92,6 +92,9 @@ class TwinModel {
   /// `everywhere` in general, `beyond` at wave numbers above 0.8 times `cutoff`, and three times
   /// `beyond` if a bin begins at the cut-off.
   void set_tolerance(double everywhere, double beyond, double cutoff);
+  /// Counts each bin as fewer modes by this factor, for powers that scatter more than those of Gaussian
+  /// heights. Lasts until the next set_tolerance().
+  void set_scatter(double factor);
 
   /// ln of the posterior density, −½|F|² with the F of residuals(); −∞ out of bounds.
   double log_posterior(const Eigen::VectorXd& parameters, Work& work) const;

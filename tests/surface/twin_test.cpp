@@ -160,10 +160,15 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
   const TwinDraw truth = law(SpectrumForm::corner, 0.7, 3e-5, 6e-7);
   const std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
   twin_detail::Responses responses;
-  const std::vector<twin_detail::TwinData> data =
+  const std::vector<twin_detail::TwinData> gaussian =
       twin_detail::grouped(scans, std::vector<bool>(scans.size(), false), {}, responses);
-  for (const SpectrumForm form :
-       {SpectrumForm::corner, SpectrumForm::smooth, SpectrumForm::table}) {
+  std::vector<twin_detail::TwinData> skew = gaussian;
+  twin_detail::allow_skew_heights(scans, skew);
+  for (const auto& [form, heights] : {std::pair{SpectrumForm::corner, "gaussian"},
+                                      {SpectrumForm::smooth, "gaussian"},
+                                      {SpectrumForm::table, "gaussian"},
+                                      {SpectrumForm::corner, "skew"}}) {
+    const auto& data = heights == std::string_view("skew") ? skew : gaussian;
     twin_detail::TwinLaw own{form, 1e6, {}};
     Eigen::VectorXd at;
     if (form == SpectrumForm::table) own.knots = {-3, -2, -1, 0, 1, 2, 3};
@@ -193,7 +198,7 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
       moved[p] -= 2 * step;
       model.residuals(moved, work, down, nullptr);
       const Eigen::VectorXd difference = (up - down) / (2 * step);
-      INFO(name_of(form) << ", parameter " << p);
+      INFO(name_of(form) << ", " << heights << ", parameter " << p);
       // Central differences have errors of 1e-16/1e-6 of residuals up to 1000, and of the third
       // derivative.
       CHECK((slopes.col(p) - difference).norm() <= 2e-5 * (difference.norm() + 1));
