@@ -7,7 +7,19 @@ The surfaces are made by numpy alone: Gaussian fields with an elliptic spectrum,
 sampled surface, with waves longer than the patch, each patch a place of its own; monotone transforms
 of them whose spectrum, by the inverse of the relation between both correlation functions, is a power
 law; and instruments with tilt, gain, noise and blur. Crossed lays and superpositions of an isotropic
-and a ground surface must be refused.
+and a ground surface must be refused. Limits that are both NaN count as a miss.
+
+Of the 60 truths of `60 500 10 10`, on which nothing was tuned, none was refused, and the limits held
+
+    rms slope                                           60
+    roll-off, rms height, stretch, skewness             59
+    roll-off along, short cut-off                       58
+    kurtosis                                            57
+    Hurst exponent                                      56
+    angle of the lay                                    53 of 55
+
+and of the 20 truths of `20 300 --isotropic` 20 but for roll-off along and rms height (19) and rms
+slope (18).
 """
 
 import argparse

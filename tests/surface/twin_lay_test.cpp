@@ -219,7 +219,7 @@ TEST_CASE("A map with two octaves between roll-off and cut-off has wide limits a
   constexpr double side = 120e-6;
   constexpr int maps = 6;
   std::array<int, 6> held{};
-  for (unsigned seed = 31; seed < 31 + maps; ++seed) {
+  for (unsigned seed = 41; seed < 41 + maps; ++seed) {
     RoughPatches patches(seed);
     Field heights =
         patches.patch(n, side, [&](double qx, double qy) { return narrow.density(qx, qy); });
