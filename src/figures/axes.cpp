@@ -42,9 +42,9 @@ std::string interval_text(double value, double low, double high, Dimension dimen
 
 std::string error_text(double value, double error, Dimension dimension) {
   const std::string text = format_quantity(value, dimension, 3);
-  return std::isfinite(error) && std::isfinite(value)
-             ? fmt::format("{} ± {:.2g} %", text, 100 * std::abs(error / value))
-             : text;
+  if (!std::isfinite(error) || !std::isfinite(value)) return text;
+  if (error >= std::abs(value)) return "below its error of " + format_quantity(error, dimension, 2);
+  return fmt::format("{} ± {:.2g} %", text, 100 * error / std::abs(value));
 }
 
 bool spans_decades(const std::vector<double>& values) {

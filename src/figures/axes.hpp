@@ -13,7 +13,8 @@ namespace salebra::figures {
 Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_view label = {});
 /// "25.3 nm (24.1 nm … 26.5 nm)"; without the limits where they are unknown.
 std::string interval_text(double value, double low, double high, Dimension dimension);
-/// "25.3 nm ± 2 %"; without the error where it is unknown.
+/// "25.3 nm ± 2 %"; without the error where it is unknown, and without the value where it is no larger
+/// than its error.
 std::string error_text(double value, double error, Dimension dimension);
 /// Whether positive values span more than 1.5 decades.
 bool spans_decades(const std::vector<double>& values);

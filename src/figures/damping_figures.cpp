@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
@@ -160,9 +161,10 @@ Figure figure_of(const IndenterLaw& law, double indentation) {
                            .x = {.label = "r", .unit = "m"},
                            .y = {.label = "p", .unit = "Pa", .low = 0}});
   figure.panels.back().curves = {pressure};
-  figure.panels.push_back({.title = "(d) force",
-                           .x = {.label = "indentation δ", .unit = "m"},
-                           .y = {.label = "F", .unit = "N"}});
+  figure.panels.push_back(
+      {.title = "(d) force, F = " + format_quantity(law.force(indentation), Dimension::force, 3),
+       .x = {.label = "indentation δ", .unit = "m"},
+       .y = {.label = "F", .unit = "N"}});
   figure.panels.back().curves = {
       force_of(law, std::min(1.5 * indentation, law.highest_indentation())),
       {.x = {indentation}, .y = {law.force(indentation)}, .style = Style::points, .color = 1}};
@@ -233,7 +235,6 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       const auto known = [](double value) { return std::isfinite(value); };
       if (!std::ranges::any_of(curve.y, known)) return;
       if (!std::ranges::any_of(curve.low, known)) curve.low = curve.high = {};
-      panel.y.logarithmic = panel.curves.empty() ? spans_decades(curve.y) : panel.y.logarithmic;
       panel.curves.push_back(std::move(curve));
     };
     const auto none = [](const DampingResult&) { return ContactParameters::unknown; };
@@ -271,6 +272,13 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     if (!figure.panels[2].curves.empty()) figure.panels[2].curves.back().style = Style::dashed;
   }
   std::erase_if(figure.panels, [](const Panel& panel) { return panel.curves.empty(); });
+  for (Panel& panel : figure.panels) {
+    std::vector<double> all;
+    for (const Curve& curve : panel.curves)
+      std::ranges::copy_if(curve.y, std::back_inserter(all),
+                           [](double value) { return std::isfinite(value); });
+    panel.y.logarithmic = spans_decades(all);
+  }
   return figure;
 }
 

@@ -189,6 +189,8 @@ class PanelScript {
           least = std::min(least, shown);
           most = std::max(most, shown);
         }
+    if (axis.low) least = *axis.low;
+    if (axis.high) most = *axis.high;
     // If all values are equal up to round-off, gnuplot chooses the range.
     if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
     const double padding = margin * (most - least);

@@ -70,10 +70,13 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   }
   for (std::size_t k = 0; k < outcomes.size(); ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
-  for (const OscillationOutcome& outcome : outcomes)
-    figure.panels.push_back(
-        work_panel(outcome, "W = " + error_text(outcome.work_per_cycle(), outcome.error_estimate(),
-                                                Dimension::energy)));
+  for (const OscillationOutcome& outcome : outcomes) {
+    const double work = outcome.work_per_cycle();
+    figure.panels.push_back(work_panel(
+        outcome, std::abs(work) > outcome.uncertain_loss()
+                     ? "W = " + error_text(work, outcome.error_estimate(), Dimension::energy)
+                     : "no loss"));
+  }
   for (const OscillationOutcome& outcome : outcomes)
     if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
   return figure;

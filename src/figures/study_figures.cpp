@@ -203,11 +203,13 @@ void share_limits(const std::vector<Panel*>& panels) {
             low = std::min(low, value);
             high = std::max(high, value);
           }
-  if (!(low < high)) return;
   const bool logarithmic = panels.front()->y.logarithmic;
+  const std::optional<double> fixed = panels.front()->y.low;
+  if (fixed) low = std::min(low, *fixed);
+  if (!(low < high)) return;
   const double margin = 0.04 * (logarithmic ? std::log(high / low) : high - low);
   for (Panel* panel : panels) {
-    panel->y.low = logarithmic ? low * std::exp(-margin) : low - margin;
+    panel->y.low = fixed ? low : logarithmic ? low * std::exp(-margin) : low - margin;
     panel->y.high = logarithmic ? high * std::exp(margin) : high + margin;
   }
 }

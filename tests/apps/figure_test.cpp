@@ -267,7 +267,7 @@ void check_texts(const std::string& svg, const std::set<std::string>& on_curves 
   const auto texts = texts_of(svg);
   const auto curves = curves_of(svg);
   REQUIRE(texts.size() > 5);
-  REQUIRE(curves.size() > 50);
+  REQUIRE((curves.size() > 50 || Contains("<image").match(svg)));  // a map has no curves
   for (const TextBox& one : texts) {
     CAPTURE(one.text);
     CHECK(one.top > 0);
@@ -292,7 +292,7 @@ std::vector<std::string> commands_of_page() {
   std::string page = text.str();
   page = std::regex_replace(page, std::regex("\\\\\n"), " ");
   std::vector<std::string> commands;
-  static const std::regex command("\nsalebra (.*?)( --plot \\S+)\n"),
+  static const std::regex command("\nsalebra (.*?)( --plot \\S+)?\n"),
       count("(--points|--map-phases|--map-radii|--steps|--intervals) [0-9]+"),
       values("(:[^ :]+):[0-9]+");
   for (std::sregex_iterator at(page.begin(), page.end(), command), end; at != end; ++at)

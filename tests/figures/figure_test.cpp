@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/base/describe.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/figures/figures.hpp>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/correlation.hpp>
+
+#include "figures/gnuplot_script.hpp"
+
+using namespace salebra;
+using namespace salebra::figures;
+using Catch::Contains;
+using nlohmann::json;
+
+TEST_CASE("The descriptions of figures list every member", "[figures]") {
+  STATIC_REQUIRE(describes_all<figures::Axis>());
+  STATIC_REQUIRE(describes_all<SecondAxis>());
+  STATIC_REQUIRE(describes_all<Curve>());
+  STATIC_REQUIRE(describes_all<Image>());
+  STATIC_REQUIRE(describes_all<ReferenceLine>());
+  STATIC_REQUIRE(describes_all<ShadedRange>());
+  STATIC_REQUIRE(describes_all<Panel>());
+  STATIC_REQUIRE(describes_all<Figure>());
+}
+
+TEST_CASE("JSON of a figure has enumerations by name, lists of one number, and null for NaN",
+          "[figures]") {
+  Figure figure{.kind = "test", .columns = 2};
+  Panel& panel = figure.panels.emplace_back();
+  panel.x = {.quantity = "pressure", .unit = "Pa", .logarithmic = true, .low = 1.5};
+  panel.second_x = SecondAxis{.label = "p/(E^{*}h')", .factor = 1e-9};
+  panel.curves.push_back({.x = {1}, .y = {std::nan("")}, .style = Style::line_and_points});
+  panel.legend = Legend::bottom_left;
+  panel.image = Image{.x = {0, 1}, .y = {0, 1, 2}, .values = Field(2, 3), .palette = Palette::grey};
+  panel.image->values << 1, 2, 3, 4, 5, 6;
+  const json text = json::parse(figure_json(figure));
+  CHECK(text["kind"] == "test");
+  CHECK(text["columns"] == 2);
+  const json& first = text["panels"][0];
+  CHECK(first["x"]["logarithmic"] == true);
+  CHECK(first["x"]["low"] == 1.5);
+  CHECK_FALSE(first["x"].contains("high"));
+  CHECK(first["second_x"]["factor"] == 1e-9);
+  CHECK_FALSE(first.contains("second_y"));
+  CHECK(first["curves"][0]["x"] == json{1.0});
+  CHECK(first["curves"][0]["y"][0].is_null());
+  CHECK(first["curves"][0]["style"] == "line_and_points");
+  CHECK(first["legend"] == "bottom_left");
+  CHECK(first["image"]["palette"] == "grey");
+  // values[x][y]
+  CHECK(first["image"]["values"] == json{{1, 2, 3}, {4, 5, 6}});
+}
+
+TEST_CASE("A curve that follows the exponential law lies on its fit in every panel", "[figures]") {
+  constexpr double length = 20e-9, reference = 1e8;
+  ForceCurve curve;
+  for (double gap = 20e-9; gap < 80e-9; gap += 4e-9) {
+    ForceSample sample;
+    sample.mean_gap = gap;
+    sample.pressure = reference * std::exp(-gap / length);
+    sample.converged = true;
+    curve.samples.push_back(sample);
+  }
+  ExponentialFit fit;
+  fit.decay_length = length;
+  fit.reference_pressure = reference;
+  fit.decay_length_low = 19e-9;
+  fit.decay_length_high = 21e-9;
+  fit.window = {curve.samples.back().pressure, curve.samples.front().pressure};
+  const Figure figure = figure_of(curve, fit);
+  CHECK_THAT(figure.panels[0].title, Contains("20 nm (19 nm … 21 nm)"));
+  const ShadedRange& window = figure.panels[0].ranges.at(0);
+  CHECK(window.low == Approx(curve.samples.front().mean_gap));
+  CHECK(window.high == Approx(curve.samples.back().mean_gap));
+  bool local = false, deviation = false;
+  for (const Panel& panel : figure.panels) {
+    if (panel.y.quantity == "local_decay_length") {
+      local = true;
+      CHECK(panel.lines.at(0).at == length);
+      for (const double value : panel.curves.at(0).y) CHECK(value == Approx(length).epsilon(1e-9));
+    }
+    if (panel.y.label == "deviation from the fit (%)") {
+      deviation = true;
+      // Of exp and its inverse, in per cent.
+      for (const double value : panel.curves.at(0).y) CHECK(std::abs(value) < 1e-11);
+    }
+  }
+  CHECK(local);
+  CHECK(deviation);
+  // A curve that is nowhere near the fit shows it.
+  fit.decay_length *= 2;
+  const Figure wrong = figure_of(curve, fit);
+  CHECK(std::abs(wrong.panels.back().curves.at(0).y.front()) > 10);
+}
+
+TEST_CASE("The 95 % interval of a spectrum holds the law of most rings", "[figures]") {
+  // White noise: a ring of the spectrum is the mean of independent squares, and the law is constant.
+  int held = 0, rings = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Surface surface;
+    surface.grid = {64, 64, 1e-6, 1e-6};
+    surface.heights = Field(64, 64);
+    std::uint64_t state = seed * 0x9E3779B97F4A7C15ull;
+    const auto uniform = [&state] {
+      state = state * 6364136223846793005ull + 1442695040888963407ull;
+      return (static_cast<double>(state >> 11) + 0.5) / 9007199254740992.0;
+    };
+    for (Index i = 0; i < 64; ++i)
+      for (Index j = 0; j < 64; ++j)
+        surface.heights(i, j) =
+            std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+    const PowerSpectrum spectrum = power_spectrum(surface);
+    // h_rms² = ΣC d²q over 64² modes.
+    const double law = 1 / (64 * 64 * spectrum.cell());
+    const Figure figure = figure_of(surface, {spectrum, {}});
+    const Curve& curve = figure.panels.at(1).curves.at(0);
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      CHECK(curve.low[k] < curve.y[k]);
+      CHECK(curve.y[k] < curve.high[k]);
+      held += curve.low[k] < law && law < curve.high[k];
+      ++rings;
+    }
+  }
+  // Some 300 rings: three standard deviations of a share of 95 % are 0.04.
+  REQUIRE(rings > 200);
+  CHECK(held / double(rings) == Approx(0.95).margin(0.04));
+}
+
+TEST_CASE("A second scale has the same limits, times its factor", "[figures]") {
+  Figure figure;
+  Panel& panel = figure.panels.emplace_back();
+  panel.x = {.label = "p", .unit = "Pa", .logarithmic = true, .low = 1e6, .high = 1e8};
+  panel.y = {.label = "l", .unit = "m", .low = 0, .high = 2e-8};
+  panel.second_x = SecondAxis{.label = "relative", .factor = 1e-9};
+  panel.second_y = SecondAxis{.label = "over h", .factor = 1e8};
+  panel.curves.push_back({.x = {1e6, 1e8}, .y = {1e-8, 2e-8}});
+  const std::string script = gnuplot_script(figure, PictureFormat::svg);
+  CHECK_THAT(script, Contains("set xrange [0:2]"));     // lg of MPa
+  CHECK_THAT(script, Contains("set x2range [-3:-1]"));  // lg p/1 GPa
+  CHECK_THAT(script, Contains("set yrange [0:20]"));    // nm
+  CHECK_THAT(script, Contains("set y2range [0:2]"));
+  CHECK_THAT(script, Contains("set x2label 'relative'") && Contains("set y2label 'over h'"));
+}
+
+TEST_CASE("Figures of surfaces and spots show their numbers", "[figures]") {
+  Surface surface;
+  surface.grid = {16, 8, 2e-6, 1e-6};
+  surface.heights = Field(16, 8);
+  for (Index i = 0; i < 16; ++i)
+    for (Index j = 0; j < 8; ++j) surface.heights(i, j) = double(i * 8 + j);
+  const Figure bearing = figure_of(BearingCurve(surface));
+  CHECK(bearing.panels.at(0).curves.at(0).y.front() == Approx(127));
+  const Figure lags = figure_of(correlation_map(surface));
+  CHECK(lags.panels.at(0).image->x.at(8) == Approx(0).margin(1e-20));
+  const Figure all = figure_of(surface);
+  CHECK(all.panels.at(0).image->values(3, 5) == 29);
+  // Of 0 … 127: (128² − 1)/12.
+  CHECK_THAT(all.panels.at(0).title, Contains("36.9 m") || Contains("37 m"));
+
+  ContactSpots spots;
+  spots.spots = {{4e-12, 0}, {2e-12, 0}, {1e-12, 0}};
+  const Curve curve = figure_of(spots).panels.at(0).curves.at(0);
+  CHECK(curve.x == std::vector<double>{4e-12, 2e-12, 1e-12});
+  CHECK(curve.y == std::vector<double>{1, 2, 3});
+}
