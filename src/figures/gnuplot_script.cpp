@@ -348,7 +348,7 @@ class PanelScript {
   }
 
   /// From side to side of the frame, between two values on an axis.
-  static std::string across(bool vertical, double from, double to) {
+  static std::string side_to_side(bool vertical, double from, double to) {
     return vertical ? fmt::format("from first {:.9g},graph 0 to first {:.9g},graph 1", from, to)
                     : fmt::format("from graph 0,first {:.9g} to graph 1,first {:.9g}", from, to);
   }
@@ -377,7 +377,7 @@ class PanelScript {
                    high = std::min(axis.display(range.high), axis.high.value_or(HUGE_VAL));
       if (!(low < high)) continue;
       line("set object rectangle {} behind fc rgb '#D55E00' fs solid 0.12 noborder",
-           across(range.vertical, low, high));
+           side_to_side(range.vertical, low, high));
       if (!range.name.empty())
         plots_.push_back(fmt::format(
             "NaN with boxes lc rgb '#D55E00' fs solid 0.12 border lc rgb '#D55E00' title {}",
@@ -386,7 +386,7 @@ class PanelScript {
     for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;
       const double at = mark.vertical ? x_.display(mark.at) : y_.display(mark.at);
-      line("set arrow {} nohead dt {} lw 1 lc '#404040' front", across(mark.vertical, at, at),
+      line("set arrow {} nohead dt {} lw 1 lc '#404040' front", side_to_side(mark.vertical, at, at),
            dash_of(mark));
     }
     for (const auto& [mark, right, offset] : names_)

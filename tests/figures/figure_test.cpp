@@ -8,6 +8,7 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/study/realisation.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 
@@ -168,4 +169,47 @@ TEST_CASE("Figures of surfaces and spots show their numbers", "[figures]") {
   const Curve curve = figure_of(spots).panels.at(0).curves.at(0);
   CHECK(curve.x == std::vector<double>{4e-12, 2e-12, 1e-12});
   CHECK(curve.y == std::vector<double>{1, 2, 3});
+}
+
+TEST_CASE("One curve has labels and units of its quantities, and scales that suit its values",
+          "[figures]") {
+  const Figure figure =
+      curve_figure("pressure", "spot_count",
+                   {.x = {1e6, 1e7, 1e8}, .y = {3, 4, 5}, .low = {2, 3, 4}, .high = {4, 5, 6}});
+  const Panel& panel = figure.panels.at(0);
+  CHECK(panel.x.unit == "Pa");
+  CHECK(panel.x.logarithmic);
+  CHECK_FALSE(panel.y.logarithmic);
+  CHECK(panel.y.quantity == "spot_count");
+  CHECK(panel.y.unit.empty());
+  CHECK(panel.curves.at(0).high.at(2) == 6);
+}
+
+TEST_CASE("The maps of a surface of a study hold its values where its points are", "[figures]") {
+  SurfacePicture picture;
+  picture.stride = 1;
+  picture.nx = 2;
+  picture.ny = 3;
+  picture.step_x = 1e-6;
+  picture.step_y = 2e-6;
+  picture.heights = {0, 1, 2, 3, 4, 5};  // y contiguous
+  picture.first_load = {-1, 0, 1, -1, -1, 1};
+  picture.mapped_load = 1;
+  picture.contact_pressure = {0, 5e6F, 7e6F, 0, 0, 1e6F};
+  picture.wavenumber = {1e6, 2e6};
+  picture.psd = {1e-20, 1e-21};
+  picture.hurst = std::nan("");
+  const Figure figure = figure_of(picture, {1e6, 2e6});
+  REQUIRE(figure.panels.size() == 4);  // no gap, no histogram
+  const Image &heights = *figure.panels[0].image, &touch = *figure.panels[1].image,
+              &pressure = *figure.panels[2].image;
+  CHECK(heights.values(1, 2) == 5);
+  CHECK(heights.y.at(1) - heights.y.at(0) == Approx(2e-6));
+  CHECK(std::isnan(touch.values(0, 0)));
+  CHECK(touch.values(0, 1) == 1e6);
+  CHECK(touch.values(1, 2) == 2e6);
+  CHECK(std::isnan(pressure.values(0, 0)));
+  CHECK(pressure.values(1, 2) == 1e6);
+  CHECK_THAT(figure.panels[2].title, Contains("at 2 MPa"));
+  CHECK(figure.panels[3].title == "power spectral density");
 }

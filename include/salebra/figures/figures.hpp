@@ -11,11 +11,13 @@
 
 namespace salebra {
 class BearingCurve;
+class ContactLaw;
 class IndenterLaw;
 struct AsperityDamping;
 struct ContactSpots;
 struct Correlation;
 struct CorrelationMap;
+struct CycleResult;
 struct DamperMap;
 struct DamperSolution;
 struct DampingResult;
@@ -28,6 +30,8 @@ struct LocalDecayLength;
 struct NormalContactState;
 struct OscillationOutcome;
 struct ParameterLists;
+struct Profile;
+struct Realisation;
 struct RegimeMap;
 struct ScaleDependence;
 struct SliderMotion;
@@ -37,7 +41,9 @@ struct SpotStatistics;
 struct StressMap;
 struct StudyResult;
 struct StudySolution;
+struct SummitList;
 struct Surface;
+struct SurfacePicture;
 struct SurfaceTwin;
 struct TrajectoryDamping;
 struct ViscoelasticLoss;
@@ -48,6 +54,12 @@ struct ViscoelasticLoss;
 /// The numbers in a figure are those of the result. Throws InvalidInput for a result without
 /// anything to draw. Cost: that of copying the numbers, unless stated otherwise.
 namespace salebra::figures {
+
+/// One curve of two quantities by their names in JSON and files, which give labels and units; an axis
+/// is logarithmic where positive values span more than 1.5 decades. It draws results without a figure
+/// of their own, such as lists of means with their limits:
+///     curve_figure("pressure", "spot_count", {.x = pressures, .y = counts, .low = low, .high = high})
+Figure curve_figure(std::string_view x, std::string_view y, Curve curve);
 
 /// The spectrum of a surface. A spectrum needs every point, so it is empty if a point is undefined.
 struct SurfaceSpectrum {
@@ -72,6 +84,13 @@ Figure figure_of(const BearingCurve& curve);
 Figure figure_of(const Correlation& correlation);
 Figure figure_of(const CorrelationMap& map);
 Figure figure_of(const ScaleDependence& slopes);
+Figure figure_of(const Profile& profile);
+/// The distribution of the heights of summits.
+Figure figure_of(const SummitList& summits);
+/// The maps that a study keeps of a surface: heights, pressure of first touch, contact pressure and
+/// gap, as far as they are there; spectrum with the self-affine law; distribution of heights.
+/// pressures: of the study, Pa.
+Figure figure_of(const SurfacePicture& picture, const std::vector<double>& pressures);
 
 /// The power spectral density of a surface twin, which several scans have in common, with its 95 %
 /// band.
@@ -86,6 +105,10 @@ Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading);
 
 /// Maps of pressure (white where the bodies do not touch) and gap.
 Figure figure_of(const Grid2D& grid, const NormalContactState& state);
+/// Force over indentation of a law at these indentations, m.
+Figure figure_of(const ContactLaw& law, const std::vector<double>& indentation);
+/// Pressure over mean gap of all models of one surface.
+Figure figure_of(const Realisation& surface);
 /// The local decay length over the mean gap.
 Figure figure_of(const LocalDecayLength& local);
 /// The number of spots at least as large as an area, and the number in classes of size that double.
@@ -100,6 +123,10 @@ Figure figure_of(const IndenterLaw& law, double indentation);
 /// that it carries and releases, the loop F_x(x), and the cumulative loss W(t).
 Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss);
 
+/// The path of a point of the body, and the loop F_x(x) of a cycle with its loss.
+Figure figure_of(const SampledMotion& path);
+Figure figure_of(const CycleResult& cycle);
+
 /// The loss W and its small-amplitude formula, their ratio and, if known, the damping constant γ,
 /// over the quantity of which `values` has several values; results: for each direction one of each
 /// value.
@@ -110,6 +137,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
 /// phases, one while the indenter is pressed in and one while it is pulled out.
 Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& motion,
                  const StressMap& map);
+
+/// Shear stress and pressure over radius and phase alone.
+Figure figure_of(const StressMap& map);
 
 /// The loss with friction divided by the loss without slip, W(μ)/W(∞), over the friction number M =
 /// μu_zK/(u_xK_t) and the phase φ0, with lines at which it deviates from 1 by 1, 5 and 10 %.
@@ -139,6 +169,9 @@ Figure figure_of(const RegimeMap& map, double angular_frequency);
 /// Velocity and spring force of a slider over the time, by the full and by the averaged equation.
 /// stiffness: of its spring, N/m.
 Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double stiffness);
+
+/// Distance of a slider from its drive over the time.
+Figure figure_of(const SliderMotion& motion);
 
 /// The loss of a joint over the tangential force, and the loop of its largest motion with the
 /// backbone. displacement, force: of the loop, m and N.
