@@ -238,7 +238,8 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
         for (ShadedRange& range : panel.ranges) range.name.clear();
       }
       if (quantity == 0 && points.size() > 1)
-        panel.title = describe_point(varied, results[i].configuration);
+        panel.title = describe_point(varied, results[i].configuration) +
+                      (panel.title.empty() ? "" : ", " + panel.title);
       figure.panels.push_back(std::move(panel));
     }
   }

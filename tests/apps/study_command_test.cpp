@@ -195,14 +195,15 @@ TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[s
       ++count;
     return count;
   };
-  // A column for each point, whose title stands once; the legend is in the first.
+  // A column for each point, whose title stands once; the legend is in the first. Two rows have the
+  // gap along an axis and two rows list the models; an entry is a text and the name of its curve.
   CHECK(occurrences("H = 0.5") == 1);
   CHECK(occurrences("H = 0.8") == 1);
-  CHECK(occurrences("mean gap") == 2);
+  CHECK(occurrences("mean gap") == 4);
   CHECK(occurrences("damping constant") == 2);
-  CHECK(occurrences("<title>GW, summits from spectral moments") == 1);
+  CHECK(occurrences("<title>GW, summits from spectral moments") == 2);
   CHECK(occurrences("Eq. (16), fitted l") >= 1);
-  CHECK(occurrences("BGT") == 2);
+  CHECK(occurrences("Bush, Gibson, Thomas") == 2);
   // Whoever asks for one model gets no line of another.
   CHECK(occurrences("interacting") == 0);
   check_refused(test.run("compare study.toml --models gw"), "'gw' is not known");
