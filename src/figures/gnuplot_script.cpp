@@ -423,6 +423,8 @@ class PanelScript {
     line("set palette defined ({})", palette_stops(image.palette));
     line("set cbrange [{:.9g}:{:.9g}]", *scale.low, *scale.high);
     line("set cblabel {} offset 0.8,0", literal(scale.label));
+    // The default format fills up short numbers with zeros if a limit has many digits.
+    line("set format cb '%g'");
     if (!scale.tics.empty()) line("set cbtics {}", scale.tics);
     if (!image.color_bar) line("unset colorbox");
     const std::string columns = fmt::format("({:.12g}+{:.12g}*$1):({:.12g}+{:.12g}*$2):3",
