@@ -248,15 +248,19 @@ class Limits {
   bool extremes_;
 };
 
+/// A column of a table; empty if the table does not have it.
+std::vector<double> values_of(const ResultTable& table, std::string_view name) {
+  const auto column = std::ranges::find(table.columns, name, &ResultColumn::name);
+  return column == table.columns.end() ? std::vector<double>() : column->values;
+}
+
 /// The losses as the table has them, of which pictures are made.
 void take_numbers(std::vector<JointLoss>& losses, const ResultTable& table) {
   for (const auto& [name, member] : {std::pair{"tangential_force", &JointLoss::tangential_force},
                                      {"tangential_amplitude", &JointLoss::tangential_amplitude},
                                      {"work_per_cycle", &JointLoss::work_per_cycle}})
-    if (const auto column = std::ranges::find(table.columns, name, &ResultColumn::name);
-        column != table.columns.end())
-      for (std::size_t row = 0; row < losses.size(); ++row)
-        losses[row].*member = column->values[row];
+    if (const std::vector<double> values = values_of(table, name); !values.empty())
+      for (std::size_t row = 0; row < losses.size(); ++row) losses[row].*member = values[row];
 }
 
 void run(const JointArguments& arguments, Session& session) {
@@ -296,7 +300,9 @@ void run(const JointArguments& arguments, Session& session) {
   take_numbers(found.losses, tables.front());
   if (session.has_plot()) {
     const detail::JointLoop loop = loop_of(arguments, found, session);
-    session.plot(figures::figure_of(found.losses, loop.displacement, loop.tangential_force));
+    session.plot(figures::figure_of(found.losses, loop.displacement, loop.tangential_force,
+                                    {values_of(tables.front(), "work_per_cycle_low"),
+                                     values_of(tables.front(), "work_per_cycle_high")}));
   }
   add_first_loading(answer, found.contact.first_loading);
   AssumptionReport{{found.assumptions}}.answer(session, answer);

@@ -34,10 +34,18 @@ Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
 }
 
 std::string interval_text(double value, double low, double high, Dimension dimension) {
-  const auto text = [&](double number) { return format_quantity(number, dimension, 3); };
-  return std::isfinite(low) && std::isfinite(high)
-             ? fmt::format("{} ({} … {})", text(value), text(low), text(high))
-             : text(value);
+  const std::string text = format_quantity(value, dimension, 3);
+  if (!std::isfinite(low) || !std::isfinite(high)) return text;
+  // A limit with the unit of the value is written without it.
+  const auto unit_of = [](const std::string& words) {
+    return words.substr(std::min(words.find(' '), words.size()));
+  };
+  const std::string unit = unit_of(text);
+  const auto limit = [&](double number) {
+    const std::string words = format_quantity(number, dimension, 3);
+    return unit_of(words) == unit ? words.substr(0, words.size() - unit.size()) : words;
+  };
+  return fmt::format("{} ({} … {})", text, limit(low), limit(high));
 }
 
 std::string error_text(double value, double error, Dimension dimension) {

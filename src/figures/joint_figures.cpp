@@ -9,44 +9,72 @@
 
 namespace salebra::figures {
 
+namespace {
+
+/// The backbone: half the size of the branch of the loop from its lower to its upper tip.
+Curve backbone_of(const std::vector<double>& displacement, const std::vector<double>& loop) {
+  Curve backbone{.name = "backbone", .style = Style::dashed};
+  const std::size_t count = displacement.size();
+  const auto lowest = std::size_t(std::ranges::min_element(displacement) - displacement.begin());
+  const double x0 = displacement[lowest], force = loop[lowest];
+  for (std::size_t k = 0; k < count; ++k) {
+    // The loop is closed, so that the branch may begin anywhere in the list.
+    const std::size_t at = (lowest + k) % count;
+    const double x = (displacement[at] - x0) / 2;
+    if (!backbone.x.empty() && !(x > backbone.x.back())) {
+      if (x < backbone.x.back()) break;
+      continue;
+    }
+    backbone.x.push_back(x);
+    backbone.y.push_back((loop[at] - force) / 2);
+  }
+  return backbone;
+}
+
+}  // namespace
+
 Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
-                 const std::vector<double>& loop) {
-  std::vector<double> force, amplitude, work, low, high;
+                 const std::vector<double>& loop,
+                 const std::array<std::vector<double>, 2>& limits) {
+  std::vector<double> force, work;
+  auto [low, high] = limits;
+  const bool several = !low.empty();
   for (const JointLoss& one : losses) {
     force.push_back(one.tangential_force);
-    amplitude.push_back(one.tangential_amplitude);
     work.push_back(one.work_per_cycle);
+    if (several) continue;
     low.push_back(one.work_per_cycle - one.work_error);
     high.push_back(one.work_per_cycle + one.work_error);
   }
-  const JointLoss& largest =
-      *std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude);
+  if (std::ranges::all_of(low, [](double value) { return std::isnan(value); })) low = high = {};
+  const auto largest = std::size_t(
+      std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude) - losses.begin());
+  const std::string loss =
+      several ? interval_text(work[largest], low[largest], high[largest], Dimension::energy)
+              : error_text(work[largest], losses[largest].work_error, Dimension::energy);
   Figure figure{.kind = "joint",
-                .caption =
-                    "Loss of a joint in a cycle of the tangential motion, with its error, and "
-                    "the loop of the largest motion between the tips of the others.",
+                .caption = several
+                               ? "Loss of joints in a cycle of the tangential motion, with its "
+                                 "95 % limits, and the loop of the largest motion."
+                               : "Loss of a joint in a cycle of the tangential motion, with its "
+                                 "error, and the loop of the largest motion.",
                 .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = axis_of("tangential_force", spans_decades(force)),
                            .y = axis_of("work_per_cycle", spans_decades(work), "loss W")});
-  figure.panels.back().curves = {{.name = "loss W",
+  figure.panels.back().curves = {{.name = several ? "loss W, 95 %" : "loss W",
                                   .quantity = "work_per_cycle",
                                   .x = force,
                                   .y = work,
                                   .low = low,
                                   .high = high,
                                   .style = Style::line_and_points}};
-  figure.panels.push_back(
-      {.title = "Largest motion: W = " +
-                error_text(largest.work_per_cycle, largest.work_error, Dimension::energy),
-       .x = axis_of("tangential_amplitude", false, "displacement x"),
-       .y = axis_of("tangential_force", false, "tangential force T"),
-       .legend = Legend::top_left});
-  figure.panels.back().curves = {
-      {.name = "loop", .x = displacement, .y = loop},
-      {.name = "backbone", .x = amplitude, .y = force, .style = Style::dashed}};
-  if (std::ranges::all_of(low, [](double value) { return std::isnan(value); }))
-    figure.panels.front().curves.front().low = figure.panels.front().curves.front().high = {};
+  figure.panels.push_back({.title = "Largest motion: W = " + loss,
+                           .x = axis_of("tangential_amplitude", false, "displacement x"),
+                           .y = axis_of("tangential_force", false, "tangential force T"),
+                           .legend = Legend::top_left});
+  figure.panels.back().curves = {{.name = "loop", .x = displacement, .y = loop},
+                                 backbone_of(displacement, loop)};
   return figure;
 }
 

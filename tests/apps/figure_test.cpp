@@ -261,16 +261,21 @@ std::vector<std::pair<double, double>> curves_of(const std::string& svg) {
   return points;
 }
 
-/// No text of a picture may lie on a curve or on another text. on_curves: texts that interrupt a
-/// curve, the values of contour lines.
+/// No text of a picture may lie on a curve, on another text or across the border. on_curves: texts
+/// that interrupt a curve, the values of contour lines.
 void check_texts(const std::string& svg, const std::set<std::string>& on_curves = {}) {
   const auto texts = texts_of(svg);
+  const double width = std::stod(svg.substr(svg.find("width=\"") + 7));
   const auto curves = curves_of(svg);
   REQUIRE(texts.size() > 5);
   REQUIRE((curves.size() > 50 || Contains("<image").match(svg)));  // a map has no curves
   for (const TextBox& one : texts) {
     CAPTURE(one.text);
     CHECK(one.top > 0);
+    // Some texts have wide characters: a tenth of the width beyond the half em of each.
+    const double more = (one.right - one.left) / 20;
+    CHECK(one.left - more > 0);
+    CHECK(one.right + more < width);
     CHECK((on_curves.contains(one.text) || std::ranges::none_of(curves, [&](const auto& point) {
              const auto [x, y] = point;
              return x > one.left && x < one.right && y > one.top && y < one.bottom;

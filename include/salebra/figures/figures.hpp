@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
@@ -174,9 +175,11 @@ Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double 
 Figure figure_of(const SliderMotion& motion);
 
 /// The loss of a joint over the tangential force, and the loop of its largest motion with the
-/// backbone. displacement, force: of the loop, m and N.
+/// backbone, of which the loop is twice the size (Masing). displacement, force: of the loop, m and
+/// N. limits: low and high, J, of each loss of several joints; empty: the errors of the losses.
 Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
-                 const std::vector<double>& force);
+                 const std::vector<double>& force,
+                 const std::array<std::vector<double>, 2>& limits = {});
 
 /// Fig. 3 of the paper: for each outcome the map of the cells (black if always in contact, grey if in
 /// contact during a part of the cycle) and the work over the time, at equal frequencies W(t) divided
