@@ -25,6 +25,7 @@ MODULES = {
     "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
     "analysis": "problems that several interfaces pose, as data, and their solutions",
+    "figures": "figures of results as data",
     "export": "laws as input of other programs",
     "report": "the results of a study as a page",
 }

@@ -215,9 +215,10 @@ class LaySearch {
     const bool significant = directed && log_stretch > detail::significant_length * error &&
                              log_stretch > least_log_stretch;
     refuse_differing_scans(at_end);
-    refuse_other_spectra(significant ? ellipse : Ellipse{});
     // Without a solution, the rings of a stronger lay are beyond the grids or the cut-off.
-    if (directed && (end.error() > 0.3 || end.length() > largest_step))
+    const bool vague = directed && (end.error() > 0.3 || end.length() > largest_step);
+    refuse_other_spectra(significant ? ellipse : Ellipse{}, vague);
+    if (vague)
       refuse(
           "have a lay, of whose strength their grids show too little; give larger maps of more "
           "points");
@@ -503,8 +504,9 @@ class LaySearch {
 
   [[noreturn]] static void refuse(const std::string& why) { throw InvalidInput("scans", why); }
 
-  /// Refuses surfaces whose spectrum is no function of an elliptic wave number.
-  void refuse_other_spectra(const Ellipse& ellipse) const {
+  /// Refuses surfaces whose spectrum is no function of an elliptic wave number. vague: the ellipse
+  /// is not known, so that it explains nothing.
+  void refuse_other_spectra(const Ellipse& ellipse, bool vague) const {
     const std::vector<ScanEstimates> all = estimates(ellipse, maps_);
     const Estimate sum = sum_of(all);
     const double fourth = std::hypot(sum.c4, sum.s4);
@@ -513,7 +515,7 @@ class LaySearch {
         fourth > clearly * scatter(all, true) / std::sqrt(2 * std::max(sum.modes, 1e-9));
     if (other) refuse_crossing();
     refuse_trend(all);
-    if (other)
+    if (other && !vague)
       refuse(
           fmt::format("have a spectrum that is no function of an elliptic wave number: two "
                       "processes with different lays, of which the twin has only one; its best "
