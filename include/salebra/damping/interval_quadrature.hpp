@@ -150,7 +150,7 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
 /// cost  intervals + 2 normal contacts, and a stick and a punch solve for all but one of these
 ///       contacts
 IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                             const Material& material, const Oscillation& motion,
+                                             const Body& body, const Oscillation& motion,
                                              double mean_indentation,
                                              const IntervalQuadratureOptions& options = {});
 
