@@ -11,9 +11,11 @@
 #include <salebra/damping/surface_damping.hpp>
 
 #include "../contact/normal/rough_surface.hpp"
+#include "damping/surface_contacts.hpp"
 
 using namespace salebra;
 using namespace salebra::test;
+using salebra::detail::SurfaceContacts;
 
 namespace {
 
@@ -31,9 +33,19 @@ Body body_of(int number) {
     case 3:
       return Body::graded({.modulus = 1e9, .depth = 0.1 * side, .exponent = 0.4, .poisson = 0.3});
     default:
-      return Body::transversely_isotropic({.c11 = 3e9, .c33 = 1.5e9, .c13 = 0.8e9, .c44 = 0.4e9,
-                                           .c66 = 1e9});
+      return Body::transversely_isotropic(
+          {.c11 = 3e9, .c33 = 1.5e9, .c13 = 0.8e9, .c44 = 0.4e9, .c66 = 1e9});
   }
+}
+
+/// The pressure under which about a twelfth of the cells are in contact.
+double pressure_of(const Surface& surface, const Body& body) {
+  double pressure = 1e6;
+  for (int k = 0; k < 20; ++k) {
+    const double area = press(surface, body, at_pressure(pressure)).contact_area_fraction;
+    pressure *= std::clamp(0.08 / area, 0.5, 2.0);
+  }
+  return pressure;
 }
 
 }  // namespace
@@ -67,14 +79,9 @@ TEST_CASE("The loss on a body by contacts, by quadrature and by simulation", "[b
   const int number = GENERATE(0, 1, 2, 3, 4);
   const Body body = body_of(number);
   const Surface surface = rough_surface({48, 48, side, side}, {.seed = 2});
-  // A contact of about a twelfth of the cells.
-  double pressure = 1e6;
-  for (int k = 0; k < 12; ++k) {
-    const double area = press(surface, body, at_pressure(pressure)).contact_area_fraction;
-    pressure *= std::clamp(0.08 / area, 0.5, 2.0);
-  }
-  const ForceCurve curve = sweep_pressures(surface, body, {0.8 * pressure, pressure, 1.2 * pressure},
-                                           {.stick = true});
+  const double pressure = pressure_of(surface, body);
+  const ForceCurve curve =
+      sweep_pressures(surface, body, {0.8 * pressure, pressure, 1.2 * pressure}, {.stick = true});
   const ForceSample& load = curve.samples[1];
   REQUIRE(load.converged);
   // An amplitude of a third of F/K keeps the contact closed.
@@ -91,8 +98,8 @@ TEST_CASE("The loss on a body by contacts, by quadrature and by simulation", "[b
   const IntervalQuadratureResult quadrature =
       interval_quadrature(contacts, surface.grid, body, motion, center, {.intervals = 32});
   REQUIRE(quadrature.converged());
-  const CycleResult cycle = simulate_cycle(contacts, surface.grid, body,
-                                           trajectory_of(motion, center), {.steps = 128});
+  const CycleResult cycle =
+      simulate_cycle(contacts, surface.grid, body, trajectory_of(motion, center), {.steps = 128});
   CAPTURE(loss.work_per_cycle, loss.work_per_cycle_error(), quadrature.work_per_cycle,
           cycle.work_per_cycle, cycle.step_error);
   // The theorem against direct stepping, which does not assume that contact sets are nested.
@@ -100,6 +107,23 @@ TEST_CASE("The loss on a body by contacts, by quadrature and by simulation", "[b
         cycle.step_error + 0.03 * quadrature.work_per_cycle);
   CHECK(std::abs(loss.work_per_cycle - quadrature.work_per_cycle) <
         loss.work_per_cycle_error() + 0.03 * quadrature.work_per_cycle);
+}
+
+TEST_CASE("Cells that leave under a thin stiff coating are counted", "[body]") {
+  // A stiff plate on a soft base tilts away from its load, so that cells beside it may leave.
+  const Body coated = Body::layered({{0.02 * side, 300e9, 0.2}}, {1e9, 0.3});
+  const Surface surface = rough_surface({64, 64, side, side}, {.seed = 2});
+  const auto count = [&](const Body& body) {
+    SurfaceContacts contacts(surface, body, {});
+    const double deepest = contacts.indentation_at(pressure_of(surface, body));
+    for (int k = 1; k < 64; ++k) contacts.without_stiffness_at(deepest * k / 64);
+    REQUIRE(contacts.usable());
+    return contacts.leaving_share();
+  };
+  const double share = count(coated);
+  CHECK(share > 0);
+  CHECK(share < 0.1);
+  CHECK(count(Material::of_contact_modulus(1e9)) == 0);
 }
 
 TEST_CASE("A thin soft layer on a rigid base loses like its springs", "[body]") {
