@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/punch.hpp>
@@ -331,6 +332,10 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
   solve(pi, drag);
 
   LossOfContacts(solved, motion, detail::modulus_ratio_of(body)).fill(result);
+  // These need the ratio of moduli that only half-spaces have.
+  if (!body.half_space_material())
+    result.work_by_force = result.small_amplitude_work = result.stiffness_ratio =
+        std::numeric_limits<double>::quiet_NaN();
   result.curve.model = "bem";
   result.curve.nominal_area = grid.area();
   for (auto level = solved.values.rbegin(); level != solved.values.rend(); ++level)

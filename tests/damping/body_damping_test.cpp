@@ -98,6 +98,7 @@ TEST_CASE("The loss on a body by contacts, by quadrature and by simulation", "[b
   const IntervalQuadratureResult quadrature =
       interval_quadrature(contacts, surface.grid, body, motion, center, {.intervals = 32});
   REQUIRE(quadrature.converged());
+  CHECK(std::isnan(quadrature.small_amplitude_work));
   const CycleResult cycle =
       simulate_cycle(contacts, surface.grid, body, trajectory_of(motion, center), {.steps = 128});
   CAPTURE(loss.work_per_cycle, loss.work_per_cycle_error(), quadrature.work_per_cycle,
