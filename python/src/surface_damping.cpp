@@ -64,7 +64,7 @@ BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const Forc
 void bind_surface_damping(nb::module_& m) {
   m.def(
       "surface_damping",
-      [](const BoundSurface& surface, const Material& material,
+      [](const BoundSurface& surface, const std::variant<Material, Body>& material,
          const std::variant<EqualFrequency, Drag>& motion, const ForceCurve* curve,
          const std::optional<Values>& pressures, const ContactParameters* parameters,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
@@ -102,17 +102,21 @@ void bind_surface_damping(nb::module_& m) {
               progress,
               [&](Progress told) {
                 options.on_progress = std::move(told);
-                return curve_of(surface_damping(surface.surface, material, oscillation(motion),
-                                                *curve, options),
-                                *curve, oscillation(motion));
+                const Body body = std::visit([](const auto& one) { return Body(one); }, material);
+                return curve_of(
+                    surface_damping(surface.surface, body, oscillation(motion), *curve, options),
+                    *curve, oscillation(motion));
               },
               surface.surface.communicator);
+        require_that(std::holds_alternative<Material>(material), "material",
+                     "is a Body, which needs a `curve` in place of `pressures`: that of "
+                     "sweep_pressures() with stick=True");
         std::vector<std::string> warnings;
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
               SurfaceContact contact{.surface = surface.surface,
-                                     .material = material,
+                                     .material = std::get<Material>(material),
                                      .pressure = pressures->values,
                                      .direction = chosen};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
@@ -145,7 +149,9 @@ while the error is above this fraction of W. If the surface is distributed over 
 Parameters
 ----------
 surface : Surface
-material : Material
+material : Material or Body
+    A body other than a half-space needs a `curve` with K_t of stick solves. If cells leave while the bodies approach, and their share
+    exceeds the relative error, there is no loss.
 motion : EqualFrequency or Drag
 curve : ForceCurve, optional
     Curve of this surface and material by sweep_pressures(), whose loads are used. Assumptions are then not judged. If the curve has K_t of

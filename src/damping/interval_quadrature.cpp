@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/punch.hpp>
@@ -14,6 +15,7 @@
 
 #include "base/numerics/dense_systems.hpp"
 #include "phase_quadrature.hpp"
+#include "surface_contacts.hpp"
 
 namespace salebra {
 namespace {
@@ -133,11 +135,12 @@ struct ContactValues {
 // Solves the contacts at the phases of one quadrature.
 class IntervalSolver {
  public:
-  IntervalSolver(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+  IntervalSolver(const ContactSets& contact_sets, const Grid2D& grid, const Body& body,
                  const IntervalQuadratureOptions& options, IntervalQuadratureResult& result)
       : contact_sets_(contact_sets),
         grid_(grid),
-        material_(material),
+        body_(body),
+        modulus_ratio_(detail::modulus_ratio_of(body)),
         options_(options),
         result_(result) {}
 
@@ -158,22 +161,21 @@ class IntervalSolver {
 
  private:
   void add_stiffness(const ContactSetAt& reached, ContactValues& values) {
-    const double modulus_ratio = material_.modulus_ratio();
     Field pressure;
-    const PunchStiffness punch = punch_stiffness(reached.contact, grid_, material_.contact_modulus,
+    const PunchStiffness punch = punch_stiffness(reached.contact, grid_, body_,
                                                  {.tolerance = options_.stick.tolerance,
                                                   .max_iterations = options_.stick.max_iterations,
                                                   .boundary = options_.stick.boundary,
                                                   .on_progress = options_.stick.on_progress},
                                                  &pressure);
     const StickStiffness stick =
-        stick_stiffness(reached.contact, grid_, material_, options_.stick, options_.direction == 0,
-                        Field(pressure * modulus_ratio));
+        stick_stiffness(reached.contact, grid_, body_, options_.stick, options_.direction == 0,
+                        Field(pressure * modulus_ratio_));
     values.sample.tangential_stiffness = stick.along(options_.direction);
     values.sample.direction = options_.direction;
     values.sample.normal_stiffness = punch.normal_stiffness;
     if (punch.normal_stiffness > 0)
-      values.ratio = values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
+      values.ratio = values.sample.tangential_stiffness / (modulus_ratio_ * punch.normal_stiffness);
     values.sample.converged = reached.converged && stick.converged() && punch.converged();
     result_.termination = std::max({result_.termination, stick.termination, punch.termination});
     result_.iterations += stick.iterations + punch.iterations;
@@ -182,7 +184,8 @@ class IntervalSolver {
 
   const ContactSets& contact_sets_;
   const Grid2D& grid_;
-  const Material& material_;
+  const Body& body_;
+  double modulus_ratio_;  // G*/E* on half-spaces, otherwise 1
   const IntervalQuadratureOptions& options_;
   IntervalQuadratureResult& result_;
 };
@@ -299,7 +302,7 @@ class LossOfContacts {
 }  // namespace
 
 IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                             const Material& material, const Oscillation& motion,
+                                             const Body& body, const Oscillation& motion,
                                              double mean_indentation,
                                              const IntervalQuadratureOptions& options) {
   grid.validate();
@@ -309,7 +312,7 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
   IntervalQuadratureResult result;
   result.direction = options.direction;
   result.termination = Termination::converged;
-  IntervalSolver solver(contact_sets, grid, material, options, result);
+  IntervalSolver solver(contact_sets, grid, body, options, result);
   SolvedContacts solved{gauss_nodes(count), {}, {}};
   const auto solve = [&](double theta, bool with_stiffness) {
     solved.theta.push_back(theta);
@@ -328,7 +331,11 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
   }
   solve(pi, drag);
 
-  LossOfContacts(solved, motion, material.modulus_ratio()).fill(result);
+  LossOfContacts(solved, motion, detail::modulus_ratio_of(body)).fill(result);
+  // These need the ratio of moduli that only half-spaces have.
+  if (!body.half_space_material())
+    result.work_by_force = result.small_amplitude_work = result.stiffness_ratio =
+        std::numeric_limits<double>::quiet_NaN();
   result.curve.model = "bem";
   result.curve.nominal_area = grid.area();
   for (auto level = solved.values.rbegin(); level != solved.values.rend(); ++level)

@@ -40,7 +40,7 @@ class ContactSetStore {
 
 class StuckBody final : public detail::CycleBody {
  public:
-  StuckBody(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+  StuckBody(const ContactSets& contact_sets, const Grid2D& grid, const Body& elastic,
             const Trajectory& trajectory, const CycleOptions& options,
             const detail::TrajectoryRange& range)
       : trajectory_(trajectory),
@@ -51,7 +51,7 @@ class StuckBody final : public detail::CycleBody {
         direction_x_(std::cos(options.direction)),
         direction_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0),
         contact_sets_(contact_sets, 1e-9 * range.sweep()),
-        solver_(grid, material, options.stick),
+        solver_(grid, elastic, options.stick),
         unit_motion_{Field::Constant(grid.nx, grid.ny, direction_x_),
                      Field::Constant(grid.nx, grid.ny, direction_y_)} {
     const ContactSetAt& widest = contact_sets_.at(range.indentation_max);
@@ -248,33 +248,37 @@ double step_error_of(const CycleResult& result, const Trajectory& trajectory, do
 
 }  // namespace
 
-ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
+ContactSets boundary_element_contact_sets(Surface surface, const Body& body,
                                           const NormalContactOptions& options) {
   surface.require_whole("an oscillating contact");
-  return [surface = std::move(surface), contact_modulus, options](double indentation) {
+  return [surface = std::move(surface), body, options](double indentation) {
     if (indentation <= 0)
       return ContactSetAt{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};
-    const NormalContactState state =
-        press(surface, contact_modulus, at_indentation(indentation), options);
+    const NormalContactState state = press(surface, body, at_indentation(indentation), options);
     return ContactSetAt{contact_set(state), state.force, state.converged()};
   };
 }
 
-CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
-                           const Material& material, const Trajectory& trajectory,
-                           const CycleOptions& options) {
+ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
+                                          const NormalContactOptions& options) {
+  return boundary_element_contact_sets(std::move(surface),
+                                       Material::of_contact_modulus(contact_modulus), options);
+}
+
+CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid, const Body& body,
+                           const Trajectory& trajectory, const CycleOptions& options) {
   grid.validate();
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
   // Memory of the contact sets, of one byte per cell, for every second step: the falling half of a
   // period uses the same sets as the rising half.
   require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
                  "the contact sets of its steps (fewer `steps` need less)");
-  StuckBody body(contact_sets, grid, material, trajectory, options, range);
+  StuckBody stuck(contact_sets, grid, body, trajectory, options, range);
   // If the cycle starts at the minimum indentation, every cell that is not in contact there has
   // been released and has entered again after one period, so the first period already repeats.
   const bool from_minimum =
       trajectory.indentation(0) <= range.indentation_min + 1e-9 * range.sweep();
-  CycleResult result = detail::run_cycle(body, grid, trajectory, options, from_minimum);
+  CycleResult result = detail::run_cycle(stuck, grid, trajectory, options, from_minimum);
   result.step_error = result.termination == Termination::interrupted
                           ? 0
                           : step_error_of(result, trajectory, grid.cell_area());

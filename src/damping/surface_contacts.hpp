@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -10,7 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/row_partition.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
@@ -44,13 +45,12 @@ inline Hold hold_of(const ForceCurve& curve, double amplitude, Hold wanted) {
 }
 
 /// The same for a surface whose lowest pressure is known, from one contact.
-inline Hold hold_of(const Surface& surface, double contact_modulus, double lowest_pressure,
+inline Hold hold_of(const Surface& surface, const Body& body, double lowest_pressure,
                     double amplitude, Hold wanted, const Progress& progress) {
   if (wanted != Hold::automatic) return wanted;
   NormalContactOptions options;
   options.on_progress = progress;
-  const NormalContactState state =
-      press(surface, contact_modulus, at_pressure(lowest_pressure), options);
+  const NormalContactState state = press(surface, body, at_pressure(lowest_pressure), options);
   if (state.termination == Termination::interrupted) throw Interrupted("damping: interrupted");
   return amplitude > state.indentation ? Hold::force : Hold::indentation;
 }
@@ -135,6 +135,12 @@ class StiffnessRatio {
   double value_, slope_ = 0, bend_ = 0;
 };
 
+/// G*/E* of half-spaces. Any other body has no such constant: 1, so that ρ is K_t/K itself.
+inline double modulus_ratio_of(const Body& body) {
+  const auto& material = body.half_space_material();
+  return material ? material->modulus_ratio() : 1;
+}
+
 /// Direction of the tangential motion of a contact, rad: along x if its K_t has no direction.
 inline double direction_of(const ForceSample& sample) {
   return std::isnan(sample.direction) ? 0 : sample.direction;
@@ -164,17 +170,14 @@ inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double
 class SurfaceContacts {
  public:
   /// along_x_only: K_t is needed along x only, which halves the cost of the stick solves.
-  SurfaceContacts(const Surface& surface, double contact_modulus,
-                  const NormalContactOptions& options, bool along_x_only = true)
-      : surface_(surface),
-        contact_modulus_(contact_modulus),
-        options_(options),
-        along_x_only_(along_x_only) {
-    // A periodic surface at full contact has no indentation, so indentations must stay below this
-    // limit.
+  SurfaceContacts(const Surface& surface, const Body& body, const NormalContactOptions& options,
+                  bool along_x_only = true)
+      : surface_(surface), body_(body), options_(options), along_x_only_(along_x_only) {
+    // A periodic surface at full contact has no indentation from its mean plane, so indentations
+    // must stay below this limit.
     limit_ = std::numeric_limits<double>::infinity();
     peak_ = full_contact(surface);
-    if (options.boundary == Boundary::periodic) limit_ = peak_;
+    if (options.boundary == Boundary::periodic && !(body.compliance(0).normal > 0)) limit_ = peak_;
   }
 
   /// Indentation at full contact, m; infinity for a surface alone on a half-space.
@@ -188,10 +191,24 @@ class SurfaceContacts {
   double indentation_at(double pressure) {
     if (const auto found = indentations_.find(pressure); found != indentations_.end())
       return found->second;
-    NormalContactState state =
-        salebra::press(surface_, contact_modulus_, at_pressure(pressure), options_);
+    NormalContactState state = salebra::press(surface_, body_, at_pressure(pressure), options_);
     take(state);
     return indentations_[pressure] = last_at_;
+  }
+
+  /// Number of cells that leave while the bodies approach over number of those that enter, between
+  /// the contacts solved so far; 0 on half-spaces, whose contact sets are nested.
+  double leaving_share() const {
+    double leave = 0, enter = 0;
+    for (auto one = sets_.begin(); one != sets_.end(); ++one) {
+      const auto next = std::next(one);
+      if (next == sets_.end()) break;
+      for (std::size_t k = 0; k < one->second.size(); ++k) {
+        leave += one->second[k] && !next->second[k];
+        enter += !one->second[k] && next->second[k];
+      }
+    }
+    return enter > 0 ? leave / enter : 0;
   }
 
   StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
@@ -204,7 +221,7 @@ class SurfaceContacts {
 
   /// The force and ρ = K_t/((G*/E*)K) at an indentation, with K_t along a direction from a stick
   /// solve; NaN without contact.
-  StiffnessRatio::Point ratio_at(double indentation, const Material& material, double direction) {
+  StiffnessRatio::Point ratio_at(double indentation, double direction) {
     StiffnessSample& sample = contact(indentation);
     if (!(sample.force > 0)) return {};
     if (!sticks_.contains(indentation)) {
@@ -216,13 +233,13 @@ class SurfaceContacts {
       stick.boundary = options_.boundary;
       stick.on_progress = options_.on_progress;
       const StickStiffness tangential =
-          stick_stiffness(contact_set(state), surface_.grid, material, stick, along_x_only_,
-                          punch_pressure * material.modulus_ratio(), surface_.communicator);
+          stick_stiffness(contact_set(state), surface_.grid, body_, stick, along_x_only_,
+                          punch_pressure * modulus_ratio_of(body_), surface_.communicator);
       converged_ = converged_ && tangential.converged();
       sticks_[indentation] = tangential;
     }
     return {sample.force,
-            sticks_[indentation].along(direction) / (material.modulus_ratio() * sample.stiffness)};
+            sticks_[indentation].along(direction) / (modulus_ratio_of(body_) * sample.stiffness)};
   }
 
  private:
@@ -256,10 +273,10 @@ class SurfaceContacts {
     NormalContactState state;
     state.contact_pressure = *last_;
     state.communicator = surface_.communicator;
+    state.datum = body_.datum();
     Field own;
     if (!punch_pressure) punch_pressure = &own;
-    sample.stiffness =
-        normal_stiffness(state, surface_.grid, contact_modulus_, options_, punch_pressure);
+    sample.stiffness = normal_stiffness(state, surface_.grid, body_, options_, punch_pressure);
     converged_ = converged_ && std::isfinite(sample.stiffness);
     if (converged_) correct_force(sample, *punch_pressure);
     return state;
@@ -291,7 +308,7 @@ class SurfaceContacts {
     const std::optional<Field> start = extrapolated(indentation);
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
-        salebra::press(surface_, contact_modulus_, at_indentation(indentation), options);
+        salebra::press(surface_, body_, at_indentation(indentation), options);
     // known_ finds a contact only by the requested indentation, to the last bit.
     state.indentation = indentation;
     take(state);
@@ -323,6 +340,13 @@ class SurfaceContacts {
     sample.perimeter =
         std::numbers::pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area());
     sample.together = together(spots);
+    if (!body_.half_space_material()) {
+      const auto pressures = state.contact_pressure.reshaped();
+      std::vector<bool>& set = sets_[state.indentation];
+      set.resize(static_cast<std::size_t>(pressures.size()));
+      for (Index k = 0; k < pressures.size(); ++k)
+        set[static_cast<std::size_t>(k)] = pressures[k] > 0;
+    }
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.contact_pressure);
@@ -332,7 +356,7 @@ class SurfaceContacts {
   }
 
   const Surface& surface_;
-  double contact_modulus_;
+  Body body_;
   NormalContactOptions options_;
   double limit_, peak_;
   bool along_x_only_;
@@ -340,6 +364,7 @@ class SurfaceContacts {
   std::map<double, StiffnessSample> known_;
   std::map<double, StickStiffness> sticks_;
   std::map<double, double> indentations_;
+  std::map<double, std::vector<bool>> sets_;  // by indentation; only if they may not be nested
   // Pressures of the last two contacts; all processes agree on whether they exist.
   std::optional<Field> last_, before_;
   Field last_gap_;  // gaps of the last contact, valid until the next solve

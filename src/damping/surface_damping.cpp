@@ -29,6 +29,7 @@ namespace {
 using detail::every_other;
 using detail::KrigedStiffness;
 using detail::LossOfSpring;
+using detail::modulus_ratio_of;
 using detail::ratio_on;
 using detail::stated_deviations;
 using detail::StiffnessRatio;
@@ -70,6 +71,7 @@ struct GridValue : KrigedWork {
   double indentation = Loss::unknown, mean_force = Loss::unknown, max_force = Loss::unknown,
          contact_time = Loss::unknown;
   Index points = 0;
+  double leaving_share = 0;
   bool converged = false;
 };
 
@@ -81,13 +83,13 @@ double beyond_scatter(double change, double one, double other) {
 
 class Load {
  public:
-  Load(const Material& material, const Oscillation& motion, const SurfaceDampingOptions& options,
-       Hold hold, const ForceCurve& curve, std::size_t k)
-      : material_(material),
+  Load(const Body& body, const Oscillation& motion, const SurfaceDampingOptions& options, Hold hold,
+       const ForceCurve& curve, std::size_t k)
+      : modulus_ratio_(modulus_ratio_of(body)),
         motion_(motion),
         options_(options),
         sample_(curve.samples[k]),
-        ratio_(ratio_on(curve, k, material.modulus_ratio())),
+        ratio_(ratio_on(curve, k, modulus_ratio_of(body))),
         amplitude_(detail::normal_amplitude(motion)),
         hold_(hold),
         wide_(options.amplitude == Amplitude::finite && detail::is_wide(sample_, amplitude_)) {
@@ -98,10 +100,10 @@ class Load {
       // With this stretch limit a spring that carries the normal force dF slips at μ dF, whatever
       // its stiffness is.
       slip_.emplace(motion,
-                    options.friction_coefficient / (material.modulus_ratio() * ratio_.middle()),
+                    options.friction_coefficient / (modulus_ratio_of(body) * ratio_.middle()),
                     options.excursion);
     for (const ForceSample& sample : curve.samples) {
-      const auto point = detail::point_of(sample, material.modulus_ratio());
+      const auto point = detail::point_of(sample, modulus_ratio_of(body));
       if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
@@ -127,7 +129,8 @@ class Load {
   }
 
   /// Takes the result of a wide oscillation on one grid.
-  void take(const WideLoss& loss, const WideOscillation& oscillation, Index points) {
+  void take(const WideLoss& loss, const WideOscillation& oscillation, Index points,
+            double leaving_share) {
     GridValue& value = values_.emplace_back();
     static_cast<KrigedWork&>(value) = work_of(loss.without_slip);
     value.with_slip = work_of(loss.with_slip);
@@ -137,6 +140,7 @@ class Load {
     value.max_force = loss.max_force;
     value.contact_time = loss.contact_time;
     value.points = points;
+    value.leaving_share = leaving_share;
     value.converged = loss.converged;
     possible_amplitude_ = loss.possible_amplitude;
     half_ = oscillation.window();
@@ -165,7 +169,7 @@ class Load {
       // ratio.
       if (states_error() && std::abs(ratio_.middle() - 1) > 1e-9) {
         const auto at = [&](double indentation) {
-          return contacts_at.ratio_at(indentation, material_, direction());
+          return contacts_at.ratio_at(indentation, direction());
         };
         const auto high = at(center + half_), middle = at(center);
         ratio_ = {at(center - half_), middle, high};
@@ -174,6 +178,7 @@ class Load {
     values_.push_back(integrate(contacts_at, center));
     values_.back().points = nx;
     values_.back().converged = values_.back().converged && contacts_at.usable();
+    values_.back().leaving_share = contacts_at.leaving_share();
   }
 
  private:
@@ -292,8 +297,7 @@ class Load {
       const StiffnessSample& lowest_contact = contacts.back();
       const double bend =
           3 * lowest_contact.stiffness * lowest_contact.stiffness / lowest_contact.force;
-      rest = material_.modulus_ratio() * ratio_.middle() * (*slip_)(top - mean) * bend *
-             (top - bottom);
+      rest = modulus_ratio_ * ratio_.middle() * (*slip_)(top - mean) * bend * (top - bottom);
       shallow_ = rest <= min_rest * std::abs(value.work);
     }
     const Eigen::VectorXd window = indices(center);
@@ -301,7 +305,7 @@ class Load {
     for (std::size_t piece = 0; top > bottom && !shallow_; ++piece) {
       if (first) {
         const StiffnessSample highest = contacts_at.at(top);
-        rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
+        rest = modulus_ratio_ * ratio_.middle() * highest.force * slip_->steepest();
         if (!contacts_at.usable() || rest <= min_rest * std::abs(sum.work)) break;
         const double width = widest_piece * highest.force / highest.stiffness;
         // A narrower piece would need more digits of the forces than the range of the oscillation
@@ -381,7 +385,7 @@ class Load {
       const double force = kriged.force(indices(i)), lowest = ratio.lowest_force();
       double value = ratio.at(force);
       if (follow_curve && force < lowest) value += ratio_of_curve(force) - ratio_of_curve(lowest);
-      return material_.modulus_ratio() * value * weights(i);
+      return modulus_ratio_ * value * weights(i);
     });
   }
 
@@ -465,8 +469,7 @@ class Load {
   Eigen::VectorXd weights_of_work(const KrigedStiffness& kriged, const StiffnessRatio& ratio,
                                   double mean) const {
     const auto tangential = [&](double indentation) -> Eigen::VectorXd {
-      return material_.modulus_ratio() * ratio.at(kriged.force(indentation)) *
-             kriged.weights_at(indentation);
+      return modulus_ratio_ * ratio.at(kriged.force(indentation)) * kriged.weights_at(indentation);
     };
     if (options_.amplitude == Amplitude::small) {
       // The small-amplitude loss needs the slope F'' of K. Each contact patch gives F'' a pole
@@ -488,7 +491,7 @@ class Load {
     return weights;
   }
 
-  const Material& material_;
+  double modulus_ratio_;  // G*/E* on half-spaces, otherwise 1
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   const ForceSample sample_;
@@ -519,6 +522,19 @@ ErrorBudget budget_of(const KrigedWork& own, double by_intervals) {
           .stiffness_ratio = own.ratio_error,
           .solver = own.solver_error,
           .first_touch = own.first_touch_error};
+}
+
+/// The integral ½∮ s² dK_t is the loss of contact sets that grow as the bodies approach. Cells that
+/// leave meanwhile change it by up to their share, which must stay below the error.
+SurfaceDamping refused_unless_nested(SurfaceDamping result) {
+  const double relative = result.error_without_slip.total() / result.work_per_cycle_without_slip;
+  // Without a stated error, a fiftieth is allowed.
+  if (!(result.leaving_share > (std::isfinite(relative) ? relative : 0.02))) return result;
+  SurfaceDamping refused;
+  refused.hold = result.hold;
+  refused.direction = result.direction;
+  refused.leaving_share = result.leaving_share;
+  return refused;
 }
 
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
@@ -557,7 +573,8 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
     result.error = result.error_without_slip;
   else if (load.follows_slip())
     result.error = budget_of(described, load.interval_error_with_slip());
-  if (values.size() < 2) return result;
+  result.leaving_share = value.leaving_share;
+  if (values.size() < 2) return refused_unless_nested(result);
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // The error by the cells is of second order: after halving the cells, a third of the change
   // remains on the finer grid and 4/3 on the coarser one. The loss of a wide oscillation changes so
@@ -566,7 +583,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.error_without_slip.cells = part * std::abs(value.work - other.work);
   const KrigedWork& other_described = no_slip ? other : other.with_slip;
   result.error.cells = part * std::abs(described.work - other_described.work);
-  return result;
+  return refused_unless_nested(result);
 }
 
 /// A surface of every second point in both directions. If a side has an odd number n of points, (n
@@ -654,9 +671,9 @@ struct WideLoads {
 
 /// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
 /// processes. open: for each load, the loads of all directions, which share their contacts.
-void solve_on(const Surface& fine, const Material& material,
-              const std::vector<std::vector<Load*>>& all, std::vector<WideLoads>& wide,
-              bool along_x_only, const SurfaceDampingOptions& options) {
+void solve_on(const Surface& fine, const Body& body, const std::vector<std::vector<Load*>>& all,
+              std::vector<WideLoads>& wide, bool along_x_only,
+              const SurfaceDampingOptions& options) {
   const Communicator& communicator = fine.communicator;
   // The wide loads share their contacts and are one task, the last one.
   std::vector<std::vector<Load*>> open = all;
@@ -682,7 +699,7 @@ void solve_on(const Surface& fine, const Material& material,
     return loop.going_on();
   };
   const auto contacts = [&](const NormalContactOptions& contact) {
-    return SurfaceContacts(fine, material.contact_modulus, contact, along_x_only);
+    return SurfaceContacts(fine, body, contact, along_x_only);
   };
   // The highest loads take longest, so they are solved first.
   loop.run(static_cast<Index>(open.size()), [&](Index turn) {
@@ -696,7 +713,7 @@ void solve_on(const Surface& fine, const Material& material,
     for (WideLoads& one : wide) {
       const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
       for (std::size_t k = 0; k < one.loads.size(); ++k)
-        one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx);
+        one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx, contacts_at.leaving_share());
     }
   });
   if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
@@ -731,14 +748,13 @@ void add_seam(SurfaceDamping& result, const SurfaceDamping& unseamed,
 
 }  // namespace
 
-std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
+std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Body& body,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options) {
-  return surface_damping(surface, material, motion, std::vector{curve}, options).front();
+  return surface_damping(surface, body, motion, std::vector{curve}, options).front();
 }
 
-std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
-                                                         const Material& material,
+std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface, const Body& body,
                                                          const Oscillation& motion,
                                                          const std::vector<ForceCurve>& curves,
                                                          const SurfaceDampingOptions& options) {
@@ -754,16 +770,16 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
     std::vector<WideOscillation::Load> wide_loads;
     loads[d].reserve(curves[d].samples.size());
     for (std::size_t k = 0; k < curves[d].samples.size(); ++k) {
-      Load& load = loads[d].emplace_back(material, motion, options, hold, curves[d], k);
+      Load& load = loads[d].emplace_back(body, motion, options, hold, curves[d], k);
       along_x_only = along_x_only && load.direction() == 0;
       if (!load.is_wide() || !load.usable()) continue;
       wide[d].loads.push_back(&load);
       wide_loads.push_back(load.load());
     }
     if (!wide_loads.empty())
-      wide[d].oscillation.emplace(material, motion, options, hold,
+      wide[d].oscillation.emplace(body, motion, options, hold,
                                   detail::direction_of(curves[d].samples.front()), wide_loads,
-                                  ratios_of(curves[d], material.modulus_ratio()));
+                                  ratios_of(curves[d], modulus_ratio_of(body)));
   }
 
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
@@ -789,7 +805,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    solve_on(fine, material, open, wide, along_x_only, options);
+    solve_on(fine, body, open, wide, along_x_only, options);
   }
   std::vector<std::vector<SurfaceDamping>> results(curves.size());
   for (std::size_t d = 0; d < curves.size(); ++d)
@@ -804,7 +820,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   const bool free = *options.seam == SeamCheck::free;
   if (free) without.boundary = Boundary::free;
   const auto unseamed =
-      surface_damping(free ? surface : windowed(surface), material, motion, curves, without);
+      surface_damping(free ? surface : windowed(surface), body, motion, curves, without);
   for (std::size_t d = 0; d < curves.size(); ++d)
     for (std::size_t k = 0; k < results[d].size(); ++k)
       add_seam(results[d][k], unseamed[d][k], loads[d][k].values(), options);

@@ -143,12 +143,11 @@ class SurfaceSlidingRun {
     contact.tolerance =
         std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
     const double direction = direction_of(load_);
-    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact, direction == 0);
+    SurfaceContacts contacts_at(surface, material_, contact, direction == 0);
     const double center = contacts_at.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
         first ? ratio_
-              : ratio_.scaled(contacts_at.ratio_at(center, material_, direction).ratio /
-                              ratio_.middle());
+              : ratio_.scaled(contacts_at.ratio_at(center, direction).ratio / ratio_.middle());
     std::vector<StiffnessSample> contacts;
     for (int k = 0; k <= count; ++k)
       contacts.push_back(contacts_at.at(center + half_ * std::cos(pi * k / count)));

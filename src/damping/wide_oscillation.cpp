@@ -65,10 +65,11 @@ SpringSum sum_over_springs(const ContactLaw& law, double lowest_contact, double 
 
 }  // namespace
 
-WideOscillation::WideOscillation(const Material& material, const Oscillation& motion,
+WideOscillation::WideOscillation(const Body& body, const Oscillation& motion,
                                  const SurfaceDampingOptions& options, Hold hold, double direction,
                                  std::vector<Load> loads, RatioOfLoads of_curve)
-    : material_(material),
+    : body_(body),
+      modulus_ratio_(modulus_ratio_of(body)),
       motion_(motion),
       options_(options),
       hold_(hold),
@@ -88,7 +89,7 @@ bool WideOscillation::reach(SurfaceContacts& contacts_at, std::vector<StiffnessS
   constexpr int max_steps = 40;
   const double force = loads_[load].force;
   for (int step = 0; step < max_steps && contacts_at.usable(); ++step) {
-    const SurfaceLaw law(contacts, ratio_, material_.modulus_ratio());
+    const SurfaceLaw law(contacts, ratio_, modulus_ratio_);
     const double needed = mean_indentation(law, force, amplitude_, hold_) + amplitude_;
     if (needed <= law.highest_indentation()) return true;
     const auto next = further_indentation(law, needed, contacts_at.limit(), hold_);
@@ -118,7 +119,7 @@ void WideOscillation::find_range(SurfaceContacts& contacts_at) {
   for (std::size_t k = 0; k < loads_.size(); ++k)
     possible = reach(contacts_at, contacts, k) || possible;
   if (!possible || !contacts_at.usable()) return;
-  const SurfaceLaw law(contacts, ratio_, material_.modulus_ratio());
+  const SurfaceLaw law(contacts, ratio_, modulus_ratio_);
   highest_ = lowest_;
   for (std::size_t k = 0; k < loads_.size(); ++k)
     if (std::isnan(possible_amplitude_[k]))
@@ -150,13 +151,13 @@ void WideOscillation::add_ratios(SurfaceContacts& contacts_at,
   const std::size_t quarter = (contacts.size() - 1) / 4;
   for (std::size_t k = 0; k < 4 * quarter; k += quarter)
     if (!ratio_.knows(contacts[k].force))
-      points.push_back(contacts_at.ratio_at(contacts[k].indentation, material_, direction_));
+      points.push_back(contacts_at.ratio_at(contacts[k].indentation, direction_));
   ratio_.add(points);
 }
 
 WideLoss WideOscillation::loss_of(const std::vector<StiffnessSample>& contacts, std::size_t load,
                                   const RatioOfLoads& ratio, bool exponential) const {
-  const SurfaceLaw table(contacts, ratio, material_.modulus_ratio());
+  const SurfaceLaw table(contacts, ratio, modulus_ratio_);
   const ContinuedLaw continued(table, BelowTable::exponential);
   const ContactLaw& law = exponential ? static_cast<const ContactLaw&>(continued) : table;
   WideLoss loss;
@@ -197,8 +198,7 @@ std::optional<LossOfSpring> WideOscillation::spring_of(const ContactLaw& law,
     sum += ratio.at((force + before) / 2) * (force - before);
     before = force;
   }
-  return LossOfSpring(motion_, friction / (material_.modulus_ratio() * sum / before),
-                      options_.excursion);
+  return LossOfSpring(motion_, friction / (modulus_ratio_ * sum / before), options_.excursion);
 }
 
 /// The relative scatter of K about the indentation `least`. Cells and contact patches enter singly,
@@ -231,7 +231,7 @@ double WideOscillation::scatter(const std::vector<StiffnessSample>& contacts, do
 void WideOscillation::add_noise(WideLoss& loss,
                                 const std::vector<StiffnessSample>& contacts) const {
   const double least = loss.indentation - amplitude_;
-  const SurfaceLaw law(contacts, ratio_, material_.modulus_ratio());
+  const SurfaceLaw law(contacts, ratio_, modulus_ratio_);
   const double deviation = scatter(contacts, least) * law.tangential_stiffness(least);
   const double step = contacts[0].indentation - contacts[1].indentation;
   static const std::vector<Node> nodes = gauss_nodes(8);
@@ -261,8 +261,7 @@ bool WideOscillation::begin(SurfaceContacts& contacts_at) {
 
 std::vector<StiffnessSample> WideOscillation::contacts(const Surface& surface,
                                                        const Progress& progress) {
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress),
-                              direction_ == 0);
+  SurfaceContacts contacts_at(surface, body_, contact_options(progress), direction_ == 0);
   const bool first = begin(contacts_at);
   if (!(highest_ > lowest_) || !contacts_at.usable()) return {};
   std::vector<StiffnessSample> contacts = contacts_on(contacts_at, 32);
@@ -273,7 +272,7 @@ std::vector<StiffnessSample> WideOscillation::contacts(const Surface& surface,
 }
 
 double WideOscillation::peak_force(const Surface& surface, const Progress& progress) {
-  SurfaceContacts contacts_at(surface, material_.contact_modulus, contact_options(progress));
+  SurfaceContacts contacts_at(surface, body_, contact_options(progress));
   find_range(contacts_at);
   return contacts_at.usable() ? peak_force_ : Loss::unknown;
 }

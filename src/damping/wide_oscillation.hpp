@@ -48,9 +48,8 @@ class WideOscillation {
   /// direction    of the tangential motion, from the x axis, rad
   /// loads        from the lowest to the highest
   /// of_curve     K_t of the curve, if it comes from stick solves; otherwise empty, and ρ = 1
-  WideOscillation(const Material& material, const Oscillation& motion,
-                  const SurfaceDampingOptions& options, Hold hold, double direction,
-                  std::vector<Load> loads, RatioOfLoads of_curve);
+  WideOscillation(const Body& body, const Oscillation& motion, const SurfaceDampingOptions& options,
+                  Hold hold, double direction, std::vector<Load> loads, RatioOfLoads of_curve);
 
   /// The losses on one grid. The first grid chooses the range of the contacts and their number; on
   /// every other grid half as many contacts change the loss of the first grid. `contacts_at` are
@@ -83,7 +82,8 @@ class WideOscillation {
                                         double top) const;
   void add_ratios(SurfaceContacts& contacts_at, const std::vector<StiffnessSample>& contacts);
 
-  const Material& material_;
+  Body body_;
+  double modulus_ratio_;
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   Hold hold_;

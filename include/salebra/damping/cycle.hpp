@@ -42,6 +42,9 @@ using PressureFields = std::function<PressureAt(double indentation)>;
 /// Computes the normal contact of a surface by boundary elements; no contact for δ <= 0.
 /// options.boundary must be the boundary used for the tangential solves. The returned function
 /// keeps a copy of the surface.
+ContactSets boundary_element_contact_sets(Surface surface, const Body& body,
+                                          const NormalContactOptions& options = {});
+/// On a half-space.
 ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options = {});
 PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
@@ -306,11 +309,12 @@ inline std::vector<double> column(const CycleResult& cycle, double CycleSample::
 /// its step; then step_error is max(|Δ|, |Δ|/3 + 2σ) plus the difference between W_K and the
 /// simulated W. It estimates the difference from infinitely many steps on the same cells, and does
 /// not include the error due to the cell size.
+/// The simulation does not assume nested contact sets, so that it checks the losses of any body.
+/// body    a Material, or any Body, which must be under a periodic surface
 /// cost    per step a stick solve, and a second one if cells leave the contact
 /// memory  that of the stick solves, plus half a byte per cell and step
-CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
-                           const Material& material, const Trajectory& trajectory,
-                           const CycleOptions& options = {});
+CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid, const Body& body,
+                           const Trajectory& trajectory, const CycleOptions& options = {});
 
 /// Simulates a cycle with Coulomb friction, with an error of second order in the step length
 /// (SlidingContact). Without drift (x returns to its start) the contact starts stress-free, and the

@@ -22,11 +22,12 @@ struct IntervalQuadratureResult {
   double error_estimate =
       0;  ///< error of work_per_cycle, J: scatter of ρ, and F' against the given K of the contacts
   double work_by_intervals = 0;     ///< W from the unfitted K_t of the contacts, J
-  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', without tangential solves, J
-  double small_amplitude_work = 0;  ///< W by Eq. (12) or (15) with F'' of the fit of F, J
+  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', without tangential solves, J; NaN
+                                    ///< for a body that is no half-space
+  double small_amplitude_work = 0;  ///< W by Eq. (12) or (15) with F'' of the fit of F, J; likewise
   double force = 0;                 ///< F at the mean indentation, N
   double force_curvature = 0;       ///< F'' at the mean indentation, N/m²
-  double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force
+  double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force; likewise
   double direction = 0;             ///< of the tangential motion, from the x axis, rad
   ForceCurve curve;                 ///< the solved contacts, with K_t in the direction of motion
   long iterations = 0;              ///< iterations of all stick and punch solves
@@ -150,7 +151,7 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
 /// cost  intervals + 2 normal contacts, and a stick and a punch solve for all but one of these
 ///       contacts
 IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
-                                             const Material& material, const Oscillation& motion,
+                                             const Body& body, const Oscillation& motion,
                                              double mean_indentation,
                                              const IntervalQuadratureOptions& options = {});
 

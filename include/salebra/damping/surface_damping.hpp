@@ -7,7 +7,7 @@
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
@@ -91,6 +91,10 @@ struct SurfaceDamping : Loss {
   /// contact and therefore has no loss; NaN otherwise.
   double possible_amplitude = unknown;
   Hold hold = Hold::indentation;  ///< the mean value that the oscillation keeps
+  /// Number of cells that leave the contact while the bodies approach, over the number of those that
+  /// enter; 0 on half-spaces. A loss of which it exceeds the relative error is not converged, since
+  /// the integral assumes that no cell does.
+  double leaving_share = 0;
   /// True if every contact converged, the cycle lies within the range of the contact, and W >= 0.
   bool converged = false;
 };
@@ -111,6 +115,8 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   visit(&S::possible_amplitude,
         Kept{"possible_amplitude", "largest normal amplitude, if this one is impossible", length});
   visit(&S::hold, Kept{"hold", "mean value that the oscillation keeps: indentation or force"});
+  visit(&S::leaving_share,
+        Kept{"leaving_share", "cells that leave while the bodies approach over those that enter"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
 }
 
@@ -161,7 +167,9 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// variation counts as an error. The loss without slip has the same bits as in a call without
 /// friction.
 ///
-/// curve   force curve of this surface and material from sweep_pressures(); the tangential motion
+/// body    a Material, or any Body, of which ρ is K_t/K; not half-spaces are periodic only
+/// curve   force curve of this surface and body from sweep_pressures(), with K_t of stick solves
+///         (options.stick) unless the body is a half-space; the tangential motion
 ///         has the direction of its K_t. A sample that did not converge gives no loss (converged =
 ///         false)
 /// throws  InvalidInput for a curve without loads, intervals other than 4, 8, 16 or 32, and a
@@ -173,7 +181,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// A surface may be distributed over processes: the call is then collective and computes one load
 /// after the other. All numbers have the same bits as in one process, except for isolated surfaces
 /// (Boundary::free), whose K is rounded differently, as in sweep_pressures().
-std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
+std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Body& body,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options = {});
 
@@ -182,8 +190,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
 /// directions, so that a second direction costs little more than its stick solves. With
 /// relative_error, cells are halved until the losses in all directions are precise enough.
 ///     const auto losses = surface_damping(surface, material, Drag{1e-9, 1e-6, 1e5}, curves);
-std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
-                                                         const Material& material,
+std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface, const Body& body,
                                                          const Oscillation& motion,
                                                          const std::vector<ForceCurve>& curves,
                                                          const SurfaceDampingOptions& options = {});

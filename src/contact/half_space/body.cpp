@@ -118,6 +118,17 @@ Body Body::half_space(const ElasticBody& first, const ElasticBody& second) {
   return Body({.response = [=](double q) { return 1 / q * constants; }, .material = material});
 }
 
+Body::Body(const Material& material)
+    : Body(Parts{
+          .response = [constants =
+                           SurfaceCompliance{
+                               2 / material.contact_modulus, 2 * pi * material.cerruti_isotropic,
+                               2 * pi * (material.cerruti_isotropic + material.cerruti_directed),
+                               std::numeric_limits<double>::quiet_NaN()}](
+                          double q) { return 1 / q * constants; },
+          .material = material,
+          .tangential = !std::isnan(material.cerruti_isotropic)}) {}
+
 Body Body::layered(const std::vector<ElasticLayer>& layers, const ElasticBody& base) {
   require_that(!layers.empty(), "layers", "not given; give at least one");
   require(base.young > 0, "young", base.young, "must be > 0 (infinity: rigid)");

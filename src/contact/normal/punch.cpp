@@ -351,6 +351,36 @@ double stiffness_of(const NormalContactState& state, const Grid2D& grid, double 
   return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
 }
 
+// fillable: whether every cell of a periodic grid may be in contact.
+PunchStiffness stiffness_of(const ContactSet& contact, const Grid2D& grid, double contact_modulus,
+                            const detail::NormalResponse& response, bool fillable,
+                            const PunchOptions& options, Field* pressure) {
+  grid.validate();
+  require_positive(contact_modulus, "contact_modulus");
+  detail::require_limits(options.tolerance, options.max_iterations);
+  detail::require_contact(contact, grid, fillable ? Boundary::free : options.boundary);
+  if (!contact.any()) {
+    if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
+    return {.termination = Termination::converged};
+  }
+  // K is a maximum over the pressures of the punch: its relative error is of the order of the
+  // square of the relative error of the displacement.
+  const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
+  const Field ones = contact.cast<double>();
+  return press_punch({ones,
+                      std::numeric_limits<double>::infinity(),
+                      grid,
+                      {},
+                      contact_modulus,
+                      response,
+                      options.boundary,
+                      Precision::mixed},
+                     {.relative_gain = gain,
+                      .max_iterations = options.max_iterations,
+                      .keep_going = keep_going(options.on_progress)},
+                     pressure);
+}
+
 }  // namespace
 
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
@@ -379,30 +409,17 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, con
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options,
                                Field* pressure) {
-  grid.validate();
-  require_positive(contact_modulus, "contact_modulus");
-  detail::require_limits(options.tolerance, options.max_iterations);
-  detail::require_contact(contact, grid, options.boundary);
-  if (!contact.any()) {
-    if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
-    return {.termination = Termination::converged};
-  }
-  // K is a maximum over the pressures of the punch: its relative error is of the order of the
-  // square of the relative error of the displacement.
-  const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
-  const Field ones = contact.cast<double>();
-  return press_punch({ones,
-                      std::numeric_limits<double>::infinity(),
-                      grid,
-                      {},
-                      contact_modulus,
-                      1,
-                      options.boundary,
-                      Precision::mixed},
-                     {.relative_gain = gain,
-                      .max_iterations = options.max_iterations,
-                      .keep_going = keep_going(options.on_progress)},
-                     pressure);
+  return stiffness_of(contact, grid, contact_modulus, 1, false, options, pressure);
+}
+
+PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid, const Body& body,
+                               const PunchOptions& options, Field* pressure) {
+  if (const auto& half_space = body.half_space_material())
+    return punch_stiffness(contact, grid, half_space->contact_modulus, options, pressure);
+  detail::require_pressable(body, grid, options.boundary);
+  const detail::NormalResponse response(body, grid, true);
+  return stiffness_of(contact, grid, response.modulus, response, body.compliance(0).normal > 0,
+                      options, pressure);
 }
 
 }  // namespace salebra

@@ -326,13 +326,8 @@ PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& sys
                               std::vector<double>& tractions, std::vector<double>& slip,
                               const KnownResponse* known) {
   const StickOptions& options = workspace.options();
-  const Material& material = workspace.material();
-  // The Fourier transform of the compliance, (2π/q)(c1 + c2 …) with Cerruti's constants c1 and c2
-  // and the wave number q, lies between its values for tractions along and across the wave; E in
-  // 2/(E q) is set to the mean of these two.
-  const double stiffness_scale =
-      1 / (std::numbers::pi * (material.cerruti_isotropic + material.cerruti_directed / 2));
-  DiscProblem problem(system, points, std::move(limits), std::move(targets), stiffness_scale);
+  DiscProblem problem(system, points, std::move(limits), std::move(targets),
+                      workspace.stiffness_scale());
   PartialSlipReport report = problem.solve(options.tolerance * scale, options.max_iterations,
                                            options.on_progress, tractions, slip, known);
   report.residual /= scale;

@@ -56,9 +56,8 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
 
 }  // namespace
 
-StickSolver::StickSolver(const Grid2D& grid, const Material& material, const StickOptions& options)
-    : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, material, options)})) {
-}
+StickSolver::StickSolver(const Grid2D& grid, const Body& body, const StickOptions& options)
+    : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, body, options)})) {}
 StickSolver::StickSolver(StickSolver&&) noexcept = default;
 StickSolver& StickSolver::operator=(StickSolver&&) noexcept = default;
 StickSolver::~StickSolver() = default;
@@ -181,9 +180,7 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid, co
                                const Communicator& communicator) {
   if (const auto& material = body.half_space_material())
     return stick_stiffness(contact, grid, *material, options, along_x_only, guess, communicator);
-  detail::require_pressable(body, grid, options.boundary);
-  require_that(body.has_tangential_response(), "body",
-               "has no tangential response; give in_plane and across in its table");
+  detail::require_tangential(body, grid, options.boundary);
   const RowPartition rows(communicator, grid.nx);
   check(grid, options, guess, rows);
   // From a base, the stiffness is finite even if every cell is in contact.

@@ -4,7 +4,10 @@
 #include "tangential_workspace.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <salebra/base/error.hpp>
+
+#include "contact/half_space/normal_symbol.hpp"
 
 namespace salebra::detail {
 
@@ -17,6 +20,13 @@ void require_tangential(const Material& material) {
       "ratios, or a contact modulus with Poisson's ratio");
 }
 
+void require_tangential(const Body& body, const Grid2D& grid, Boundary boundary) {
+  if (const auto& material = body.half_space_material()) return require_tangential(*material);
+  require_pressable(body, grid, boundary);
+  require_that(body.has_tangential_response(), "body",
+               "has no tangential response; give in_plane and across in its table");
+}
+
 std::vector<double> values_at(const Field& field, const PointList& points) {
   std::vector<double> values;
   values.reserve(points.cell.size() * 2);  // space for the other component
@@ -24,19 +34,31 @@ std::vector<double> values_at(const Field& field, const PointList& points) {
   return values;
 }
 
-TangentialWorkspace::TangentialWorkspace(const Grid2D& grid, const Material& material,
+TangentialWorkspace::TangentialWorkspace(const Grid2D& grid, const Body& body,
                                          const StickOptions& options)
-    : grid_(grid), material_(material), options_(options) {
+    : grid_(grid), body_(body), options_(options) {
   grid.validate();
   require_limits(options.tolerance, options.max_iterations);
-  require_tangential(material);
+  require_tangential(body, grid, options.boundary);
+}
+
+double TangentialWorkspace::stiffness_scale() const {
+  // On half-spaces the compliance is (2π/q)(c1 + c2 …) with Cerruti's constants c1 and c2.
+  if (const auto& material = body_.half_space_material())
+    return 1 / (std::numbers::pi * (material->cerruti_isotropic + material->cerruti_directed / 2));
+  const double q = std::numbers::pi / std::sqrt(grid_.cell_area());
+  const SurfaceCompliance compliance = body_.compliance(q);
+  return 4 / (q * (compliance.in_plane + compliance.across));
 }
 
 ContactSystem& TangentialWorkspace::system_for(const ContactSet& contact) {
   const CellWindow window = loading_window(contact, grid_, options_.boundary);
-  if (!system_ || !system_->window().contains(window))
-    system_.emplace(grid_, material_, options_.boundary,
-                    options_.hold_lateral ? Traction::tangential : Traction::along_x, window);
+  if (system_ && system_->window().contains(window)) return *system_;
+  const Traction traction = options_.hold_lateral ? Traction::tangential : Traction::along_x;
+  if (const auto& material = body_.half_space_material())
+    system_.emplace(grid_, *material, options_.boundary, traction, window);
+  else
+    system_.emplace(grid_, body_, traction, RowPartition(grid_.nx));
   return *system_;
 }
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <vector>
 
@@ -12,6 +12,8 @@
 namespace salebra::detail {
 
 void require_tangential(const Material& material);
+/// The same for any body; others than half-spaces must be periodic.
+void require_tangential(const Body& body, const Grid2D& grid, Boundary boundary);
 
 std::vector<double> values_at(const Field& field, const PointList& points);
 
@@ -19,12 +21,13 @@ std::vector<double> values_at(const Field& field, const PointList& points);
 /// and the conversion between fields and vectors of points.
 class TangentialWorkspace {
  public:
-  /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
-  TangentialWorkspace(const Grid2D& grid, const Material& material, const StickOptions& options);
+  /// Throws InvalidInput for a bad grid or option, or a body without tangential response.
+  TangentialWorkspace(const Grid2D& grid, const Body& body, const StickOptions& options);
 
   const Grid2D& grid() const { return grid_; }
-  const Material& material() const { return material_; }
   const StickOptions& options() const { return options_; }
+  /// Modulus E, Pa, whose 2/(Eq) is the mean of the compliances along and across a wave.
+  double stiffness_scale() const;
   std::size_t components() const { return options_.hold_lateral ? 2 : 1; }
 
   /// Returns the system for a contact set; a set within the window of an earlier set needs no
@@ -43,7 +46,7 @@ class TangentialWorkspace {
 
  private:
   Grid2D grid_;
-  Material material_;
+  Body body_;
   StickOptions options_;
   std::optional<ContactSystem> system_;
 };

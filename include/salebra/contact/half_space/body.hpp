@@ -83,6 +83,10 @@ class Body {
   /// c = (1−2ν_1)/(2G_1q) − (1−2ν_2)/(2G_2q). Throws InvalidInput wherever Material::of_bodies
   /// does.
   static Body half_space(const ElasticBody& first, const ElasticBody& second = {});
+  /// The same from the constants of both bodies together, so that what takes a Body takes a Material
+  /// too: C_n = 2/(E*q), C_l = 2πΣ(1−ν_i)/(2πG_i)/q, C_a = 2πΣ1/(2πG_i)/q; the coupling is not known
+  /// (NaN), nor are C_l and C_a of a material with E* alone.
+  Body(const Material& material);  // NOLINT(google-explicit-constructor): a material is a body
 
   /// Bonded layers, from the surface down, on a half-space or, by default, on a rigid base.
   /// A layer of thickness t and shear modulus µ maps the compliance M (in 1/(µq)) at its lower face

@@ -4,8 +4,8 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
-#include <salebra/contact/half_space/material.hpp>
 
 namespace salebra {
 
@@ -57,5 +57,9 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);
+/// The same on any body, with displacements measured from the body's datum. From a base, every cell
+/// may be in contact. Throws InvalidInput as press() on a body does.
+PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid, const Body& body,
+                               const PunchOptions& options = {}, Field* pressure = nullptr);
 
 }  // namespace salebra

@@ -55,7 +55,8 @@ struct StickReport {
 class StickSolver {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
-  StickSolver(const Grid2D& grid, const Material& material, const StickOptions& options = {});
+  /// body: a Material, or any Body, which must be under a periodic surface.
+  StickSolver(const Grid2D& grid, const Body& body, const StickOptions& options = {});
   StickSolver(StickSolver&&) noexcept;
   StickSolver& operator=(StickSolver&&) noexcept;
   ~StickSolver();
