@@ -351,9 +351,8 @@ Solutions solutions(SurfaceContact body, const Context& context) {
                         {}),
         std::back_inserter(warnings));
   if (body.hardness && body.normal_amplitude > 0)
-    body.hold = detail::hold_of(body.surface, body.material.contact_modulus,
-                                std::ranges::min(body.pressure), body.normal_amplitude, body.hold,
-                                context.on_progress);
+    body.hold = detail::hold_of(body.surface, body.material, std::ranges::min(body.pressure),
+                                body.normal_amplitude, body.hold, context.on_progress);
   const std::optional<FirstLoading> first_loading =
       load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
                  {.on_progress = context.on_progress}, body.normal_amplitude, body.hold);

@@ -281,7 +281,7 @@ Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
   if (configuration.damping.hold == Hold::automatic &&
       (configuration.adhesion || configuration.damping.amplitude == Amplitude::small))
     return Hold::indentation;
-  return detail::hold_of(surface, configuration.material.contact_modulus, lowest_pressure,
+  return detail::hold_of(surface, configuration.material, lowest_pressure,
                          detail::normal_amplitude(configuration.motion), configuration.damping.hold,
                          progress);
 }

@@ -768,7 +768,7 @@ TEST_CASE("Forces of contacts that start from each other know nothing of the tol
   const Surface surface = rough(128, 5);
   NormalContactOptions options;
   options.tolerance = 1e-6;
-  detail::SurfaceContacts contacts_at(surface, material.contact_modulus, options);
+  detail::SurfaceContacts contacts_at(surface, material, options);
   const double center = contacts_at.indentation_at(2e6);
   options.tolerance = 1e-13;
   for (const double share : {1.0, 1.001, 0.999, 1.002, 1.01}) {
