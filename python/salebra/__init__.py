@@ -5,8 +5,8 @@ The package generates or reads surfaces, presses them by boundary elements and b
 that they lose when they oscillate: Popov, Popov and Pohrt, "Relaxation damping in oscillating contacts", doi:10.1038/srep16189. The C++
 library salebra computes every number; functions and keywords have its names, units are SI, and arrays are heights[ix, iy], x first.
 
-Submodules sort the names: `surfaces`, `generators`, `contact`, `models`, `damping`, `studies`, `files`, `session` and `closed_form`. All
-names except the formulas are attributes of `salebra` too. dir(salebra) lists the submodules and the names that most scripts need.
+Submodules sort the names: `surfaces`, `generators`, `contact`, `models`, `damping`, `studies`, `figures`, `files`, `session` and
+`closed_form`. All names except the formulas and figures are attributes of `salebra` too. dir(salebra) lists the submodules and the names that most scripts need.
 """
 
 import difflib as _difflib
@@ -21,6 +21,7 @@ _calls.answer()
 from . import closed_form as closed_form
 from . import contact as contact
 from . import damping as damping
+from . import figures as figures
 from . import files as files
 from . import generators as generators
 from . import models as models
@@ -51,7 +52,7 @@ _COMMON = (
 
 def __dir__() -> list[str]:
     modules = (
-        "closed_form", "contact", "damping", "files", "generators", "models", "session", "studies", "surfaces",
+        "closed_form", "contact", "damping", "figures", "files", "generators", "models", "session", "studies", "surfaces",
     )  # fmt: skip
     return sorted([*modules, *_COMMON, "__version__", "__doc__", "__name__", "__file__", "__path__"])
 
@@ -66,5 +67,5 @@ if not _typing.TYPE_CHECKING:  # type checkers would accept every name
         raise AttributeError(f"module '{module}' has no attribute '{name}'" + (f"; did you mean {close[0]}?" if close else ""))
 
     __getattr__ = _functools.partial(_missing, __name__, globals())
-    for _module in (closed_form, contact, damping, files, generators, models, session, studies, surfaces):
+    for _module in (closed_form, contact, damping, figures, files, generators, models, session, studies, surfaces):
         _module.__getattr__ = _functools.partial(_missing, _module.__name__, vars(_module))

@@ -54,7 +54,7 @@ _LIKE = {
     for quantity, arguments in {
         "height": "amplitude center correlation_length crop depth highest max_amplitude length loaded_size lowest lx ly mean_plane"
         " min_prominence motion_scale noise pixel_size r radii radius_x radius_y range semi_x semi_y semi_z shift size start stop"
-        " tangential_range target transverse x0 x1 y0 y1",
+        " tangential_range target transverse width x0 x1 y0 y1",
         "pressure": "c11 c13 c33 c44 c66 material modulus pressure_window window young", "force": "first_load force_amplitude", "wavenumber": "q qx qy",
         "time": "checkpoint_every duration", "angular_frequency": "angular_frequencies", "threshold_frequency": "frequency",
         "velocity": "velocities", "phase": "direction", "psd": "densities", "moment0": "power", "work_of_adhesion": "work",
@@ -503,7 +503,7 @@ def _answer_class(kind: Any) -> None:
         elif type(value).__name__ == "nb_func":
             setattr(kind, key, staticmethod(function(value, f"{name}.{key}")))
         elif isinstance(value, property) and value.__doc__:  # without a text, nanobind names the type by its first module
-            value.__doc__ = value.__doc__.replace("salebra._core.", "salebra.")
+            value.__doc__ = value.__doc__.replace("salebra._core.", "salebra.").replace("salebra._figures.", "salebra.figures.")
     if issubclass(kind, _REMADE):
         kind.__reduce__, kind.__eq__, kind.__hash__ = _reduce, _equal, _hash_of_call
     elif "__eq__" in own and "__hash__" not in own:
@@ -520,7 +520,10 @@ def answer() -> None:
     for kind in [*vars(_core).values(), MissingFile, ConvergenceWarning]:
         if isinstance(kind, type):
             kind.__module__ = "salebra"
-    for module, public in ((_core, "salebra"), (_core._closed_form, "salebra.closed_form")):
+    for kind in vars(_core._figures).values():
+        if isinstance(kind, type):
+            kind.__module__ = "salebra.figures"
+    for module, public in ((_core, "salebra"), (_core._closed_form, "salebra.closed_form"), (_core._figures, "salebra.figures")):
         for name, value in list(vars(module).items()):
             if name.startswith("_"):
                 continue

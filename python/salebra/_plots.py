@@ -1,339 +1,320 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of results. The first picture imports matplotlib."""
+"""Figures by matplotlib, which the first picture imports. Nothing here knows what a figure shows."""
 
 from __future__ import annotations
 
-from functools import singledispatch
+import io
+import math
+import re
+import textwrap
+from contextlib import nullcontext
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from . import _core
-from ._results import points
-from ._show import PREFIXED, columns, shown, unit_of
+from ._calls import refusal
+from ._show import PREFIXED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy.typing as npt
     from matplotlib.axes import Axes
-    from matplotlib.ticker import Formatter
+    from matplotlib.figure import Figure
 
-# The quantity along an axis (values, the name of an attribute of the result, or a function of the result), its text and its unit.
-_Along = tuple[Any, str, str]
+# As the pictures of the program: the colours of Okabe and Ito, grey and wine, each with a marker; lines across a panel differ by dashes.
+_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#808080", "#882255")
+_TURN = 7  # grey and wine only on request
+_MARKERS = ("o", "s", "^", "D", "v", "p", "x", "+", "*")
+_DASHES = {"dashed": "--", "dotted": ":", "points": "none"}
+_LINES = ((0, (1, 2)), (0, (6, 3)), (0, (6, 2, 1, 2)), (0, (4, 2, 1, 2, 1, 2)))
+_PALETTES = {"sequential": "viridis", "diverging": "RdBu_r", "grey": "gray_r"}
+_PREFIXED = PREFIXED | {"m/s", "J/m", "N/m²", "N/m^2"}
+_EDITABLE: Any = {"svg.fonttype": "none", "pdf.fonttype": 42}  # text remains text
+# A figure for a journal, whose width is given.
+_JOURNAL: Any = {"font.size": 7, "axes.titlesize": 7, "lines.linewidth": 1, "lines.markersize": 3, "axes.linewidth": 0.6}
+_PANEL = 0.079, 0.78  # narrowest panel of a journal's figure, m; height over width
+_PLACES: WeakKeyDictionary[Axes, Any] = WeakKeyDictionary()  # of axes of the user, without a legend below
 
 
-def _axes(ax: Axes | None) -> Axes:
-    if ax is not None:
-        return ax
+def _plain(markup: str) -> str:
+    """Text without markup, as long as it is drawn."""
+    return re.sub(r"\\(.)|[_^{}]", r"\1", markup)
+
+
+def _text(markup: str) -> str:
+    """Subscripts and powers in mathtext, in the font of the text."""
+
+    def drawn(found: re.Match[str]) -> str:
+        token = found[0]
+        if token[0] in "_^" and len(token) > 1:
+            inside = re.sub(r"([ %#$])", r"\\\1", _plain(token[1:]))
+            return rf"${token[0]}{{\mathregular{{{inside}}}}}$"
+        return r"\$" if token[-1] == "$" else token[-1]
+
+    return re.sub(r"\\.|[_^](?:\{[^{}]*\}|\\.|.)|.", drawn, markup)
+
+
+def _wrapped(markup: str, length: float, size: float) -> str:
+    """Text in lines of a length, both in points."""
+    lines = textwrap.wrap(markup, max(16, int(length / (0.55 * size))), break_long_words=False, break_on_hyphens=False)
+    return "\n".join(map(_text, lines))
+
+
+def _color(number: int) -> Any:
+    """A colour of the user's cycle, if matplotlib's was replaced, or else of the palette."""
+    from matplotlib import rcParams, rcParamsDefault
+
+    cycle = rcParams["axes.prop_cycle"]
+    if number >= _TURN or cycle == rcParamsDefault["axes.prop_cycle"]:
+        return _COLORS[number]
+    own = cycle.by_key().get("color", _COLORS)
+    return own[number % len(own)]
+
+
+def _number(value: float, _: object = None) -> str:
+    digits, _, power = f"{value:.4g}".replace("-", "−").partition("e")
+    if not power:
+        return digits
+    return ("" if digits == "1" else f"{digits}·") + rf"10$^{{\mathregular{{{power[0].strip('+')}{power[1:].lstrip('0')}}}}}$"
+
+
+def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
+    """Names an axis. Its numbers have prefix and unit, "2 µm": the data stay in SI units, so that results can share axes."""
+    from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+    label = axis.label.get_fontsize() * 0.55
+    unit, many = described.unit, max(3, int(points / ((12 if axis.axis_name == "x" else 4) * label)))
+    prefixed = unit in _PREFIXED
+    axis.set_label_text(_wrapped(described.label + ("" if prefixed or not unit else f" ({unit})"), points, axis.label.get_fontsize()))
+    formatter: Any = EngFormatter(unit) if prefixed else FuncFormatter(_number)
+    formatter.unit = unit  # which results on the same axes have to share
+    axis.set_major_formatter(formatter)
+    if (main or axis).get_scale() == "log":
+        low, high = sorted((main or axis).get_view_interval())
+        few = math.floor(math.log10(high)) - math.ceil(math.log10(low)) < 1  # less than two powers of ten
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=many))
+        axis.set_minor_formatter(NullFormatter())
+    else:
+        axis.set_major_locator(MaxNLocator(min(many, 8), steps=[1, 2, 2.5, 5, 10]))
+
+
+def _image(ax: Axes, image: Any, equal: bool, keywords: dict[str, Any]) -> None:
+    from matplotlib.colors import LogNorm
+
+    values, scale = np.asarray(image.values).T, image.scale
+    limits = [scale.low, scale.high]
+    if image.palette == "diverging" and limits == [None, None]:
+        most = float(np.nanmax(np.abs(values)))
+        limits = [-most, most]
+    if scale.logarithmic:
+        values = np.where(values > 0, values, np.nan)
+    look: dict[str, Any] = {"cmap": _PALETTES[image.palette], "shading": "nearest", "rasterized": True} | keywords
+    if "norm" not in look:
+        look |= {"norm": LogNorm(*limits)} if scale.logarithmic else {"vmin": limits[0], "vmax": limits[1]}
+    mesh = ax.pcolormesh(np.asarray(image.x), np.asarray(image.y), values, **look)
+    if len(image.contours):
+        lines = ax.contour(np.asarray(image.x), np.asarray(image.y), values, sorted(image.contours), colors="#202020", linewidths=0.8)
+        placed: list[Any] = []
+        for text in ax.clabel(lines, fmt=_number, fontsize="small"):
+            place = text.get_window_extent()
+            if any(place.overlaps(other) for other in placed):  # lines close together
+                text.remove()
+            else:
+                placed.append(place)
+    if image.color_bar:
+        room: dict[str, Any] = {"fraction": 0.046, "pad": 0.03} if equal else {}
+        bar = ax.figure.colorbar(mesh, ax=ax, **room)
+        _scale(bar.ax.yaxis, scale, _points(ax, 1))
+
+
+def _curve(ax: Axes, curve: Any, number: int, keywords: dict[str, Any]) -> None:
+    points = curve.style in ("points", "line_and_points")
+    look = {
+        "color": _color(number), "linestyle": _DASHES.get(curve.style, "-"), "marker": _MARKERS[number] if points else "none",
+        "label": _text(curve.name) or "_", "rasterized": len(curve.x) > 5000,
+    } | keywords  # fmt: skip
+    x, y, low, high = (np.asarray(values, dtype=float) for values in (curve.x, curve.y, curve.low, curve.high))
+    if low.size and curve.style == "points":
+        ax.errorbar(x, y, [y - low, high - y], **look)
+        return
+    drawn = ax.plot(x, y, **look)[0]
+    if low.size:
+        ax.fill_between(x, low, high, color=drawn.get_color(), alpha=0.2, linewidth=0)
+
+
+def _points(ax: Axes, direction: int) -> float:
+    """Width (0) or height (1) of axes in points."""
+    return float((ax.bbox.width, ax.bbox.height)[direction]) * 72 / ax.figure.dpi
+
+
+def _legend(ax: Any) -> None:
+    """Names the curves below the axes, outside the data. Without a layout the axes become smaller, so that it has room there."""
+    handles, labels = ax.get_legend_handles_labels()
+    if not labels:
+        return
+    from matplotlib import rcParams
+    from matplotlib.font_manager import FontProperties
+
+    size = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
+    wide = _points(ax, 0)
+    longest = max(len(re.sub(r"\$.*?regular\{(.*?)\}\}\$", r"\1", label)) for label in labels)
+    columns = min(len(labels), max(1, int(wide / ((0.58 * longest + 4) * size))))
+    labels = [textwrap.fill(label, max(20, int(wide / (0.55 * size)))) if "$" not in label else label for label in labels]
+    title = ax.xaxis.label.get_fontsize() * (1.4 * ax.get_xlabel().count("\n") + 1.3)
+    ticks = ax.xaxis.get_major_ticks()[0].label1.get_fontsize() * 1.2
+    legend = ax.legend(
+        handles, labels, loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=(title + ticks + 13) / size, ncols=columns, frameon=False,
+        borderpad=0,
+    )  # fmt: skip
+    figure: Any = ax.figure
+    if figure.get_layout_engine() is None:
+        figure.draw_without_rendering()
+        high = (legend.get_window_extent().height + 0.6 * size * figure.dpi / 72) / figure.bbox.height
+        box = _PLACES.setdefault(ax, ax.get_position())
+        ax.set_position((box.x0, box.y0 + high, box.width, max(box.height - high, 0.2 * box.height)))
+        ax.set_in_layout(True)
+
+
+def _second(ax: Axes, panel: Any, fresh: bool) -> None:
+    """A second scale along the top or the right. Results on the same axes keep it only if it holds for all of them."""
+    for way, second in (("x", panel.second_x), ("y", panel.second_y)):
+        name = f"{way} times {second.factor!r} {second.unit}" if second else ""
+        for old in [child for child in ax.child_axes if str(child.get_label()).startswith(f"{way} times ") and child.get_label() != name]:
+            old.remove()
+        if second and fresh:
+            functions: Any = (lambda value, f=second.factor: value * f, lambda value, f=second.factor: value / f)
+            child: Any = ax.secondary_xaxis("top", functions) if way == "x" else ax.secondary_yaxis("right", functions)
+            child.set_label(name)
+            main = ax.xaxis if way == "x" else ax.yaxis
+            _scale(child.xaxis if way == "x" else child.yaxis, second, _points(ax, way == "y"), main)
+
+
+def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
+    """Draws a panel, on axes that may have one already. keywords: style of its map or first curve."""
+    drawn = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData)]
+    fresh = not drawn and not ax.collections
+    for axis, described in ((ax.xaxis, panel.x), (ax.yaxis, panel.y)):
+        known = getattr(axis.get_major_formatter(), "unit", described.unit)
+        if not fresh and known != described.unit:
+            raise refusal("ax", "", f"has {known or 'plain numbers'} along {axis.axis_name}, and this panel has {described.unit or 'plain numbers'}")
+    # A logarithmic axis cannot show negative values, such as tension.
+    for set_scale, described in ((ax.set_xscale, panel.x), (ax.set_yscale, panel.y)):
+        if fresh and described.logarithmic:
+            set_scale("log")
+    if panel.image:
+        _image(ax, panel.image, panel.equal_scales, keywords)
+    if panel.equal_scales:
+        ax.set_aspect("equal")
+    turn = len(drawn)
+    for shown, curve in enumerate(panel.curves):
+        number = (turn if curve.color < 0 else curve.color + len(drawn)) % _TURN if curve.color < _TURN else curve.color
+        turn += curve.color < 0
+        _curve(ax, curve, number, keywords if shown == 0 and not panel.image else {})
+    for dashes, line in zip(_LINES * len(panel.lines), panel.lines):
+        (ax.axvline if line.vertical else ax.axhline)(line.at, color="#404040", linestyle=dashes, linewidth=0.8, label=_text(line.name) or "_")
+    for shade in panel.ranges:
+        (ax.axvspan if shade.vertical else ax.axhspan)(shade.low, shade.high, color="#808080", alpha=0.15, lw=0, label=_text(shade.name) or "_")
+    if fresh:
+        ax.set_xlim(panel.x.low, panel.x.high)
+        ax.set_ylim(panel.y.low, panel.y.high)
+        # A bar that ends near zero would extend a logarithmic axis by decades.
+        values = [value for curve in panel.curves for value in (curve.y, () if curve.style == "points" else curve.low)]
+        positive = [value for value in np.concatenate(values or [[]]) if value > 0]
+        if panel.y.logarithmic and panel.y.low is None and positive and ax.get_ylim()[0] < min(positive) / 10:
+            ax.set_ylim(bottom=min(positive) / 2)
+    else:
+        ax.autoscale()
+    _scale(ax.xaxis, panel.x, _points(ax, 0))
+    _scale(ax.yaxis, panel.y, _points(ax, 1))
+    _second(ax, panel, fresh)
+    if panel.title and fresh:
+        ax.set_title(_wrapped(panel.title, _points(ax, 0), ax.title.get_fontsize()))
+    _legend(ax)
+
+
+def _new(pyplot: bool) -> Figure:
     try:
-        import matplotlib.pyplot as plt
+        import matplotlib.pyplot
     except ImportError as error:
         raise ImportError("plot needs matplotlib; install it") from error
-    return plt.subplots(layout="constrained")[1]
+    make = matplotlib.pyplot.figure if pyplot else matplotlib.figure.Figure
+    return make(layout="constrained")
 
 
-def _label(text: str, unit: str) -> str:
-    return text if unit in ("", "1") or unit in PREFIXED else f"{text} ({unit})"
+def plot(result: Any, ax: Axes | None = None, panel: int | str = 0, **keywords: Any) -> Axes:
+    """Draws a panel of the figure of a result. fit: of a force curve, whether its fit is drawn, or the fit."""
+    figure = result.figure(fit=keywords.pop("fit")) if "fit" in keywords else result.figure()
+    return _plot_panel(figure, ax, panel, keywords)
 
 
-def _formatter(unit: str) -> Formatter | None:
-    """Numbers along an axis have prefix and unit, "2 µm". The data stay in SI units, so that curves can share axes."""
-    from matplotlib.ticker import EngFormatter
-
-    return EngFormatter(unit) if unit in PREFIXED else None
+def plot_law(law: _core.ContactLaw, indentation: Any, ax: Axes | None = None, panel: int | str = 0, **keywords: Any) -> Axes:
+    """Draws a panel of the figure of a law over indentations."""
+    return _plot_panel(law.figure(indentation), ax, panel, keywords)
 
 
-def _of(result: Any, along: _Along) -> _Along:
-    values, text, unit = along
-    return (getattr(result, values) if isinstance(values, str) else values(result) if callable(values) else values), text, unit
-
-
-def _name_axes(drawn: Axes, x: tuple[str, str], y: tuple[str, str], log: str) -> None:
-    if "x" in log:
-        drawn.set_xscale("log")
-    if "y" in log:
-        drawn.set_yscale("log")
-    for axis, (text, unit) in ((drawn.xaxis, x), (drawn.yaxis, y)):
-        axis.set_label_text(_label(text, unit))
-        formatter = _formatter(unit)
-        if formatter is not None:
-            axis.set_major_formatter(formatter)
-
-
-def _line(ax: Axes | None, x: _Along, y: _Along, log: str, keywords: dict[str, Any]) -> Axes:
-    drawn = _axes(ax)
-    # A logarithmic axis cannot show negative values, such as tension.
-    log = "".join(axis for axis, (values, _, _) in (("x", x), ("y", y)) if axis in log and not np.any(np.asarray(values) < 0))
-    drawn.plot(np.asarray(x[0]), np.asarray(y[0]), **keywords)
-    _name_axes(drawn, x[1:], y[1:], log)
-    if "label" in keywords:
-        drawn.legend()
+def _plot_panel(figure: Any, ax: Axes | None, panel: int | str, keywords: dict[str, Any]) -> Axes:
+    panels = figure.panels
+    named = [one.y.quantity or (one.image.scale.quantity if one.image else "") for one in panels]
+    number = named.index(panel) if panel in named else panel
+    if not isinstance(number, int) or not 0 <= number < len(panels):
+        names = ", ".join(f"{k} {name}".strip() for k, name in enumerate(named))
+        raise refusal("panel", repr(panel), f"is none of the panels of this figure: {names}")
+    drawn = _new(True).add_subplot() if ax is None else ax
+    _panel(drawn, panels[number], keywords)
     return drawn
 
 
-def _map(ax: Axes | None, x: _Along, y: _Along, z: _Along, log: str, keywords: dict[str, Any], equal: bool = False) -> Axes:
-    """Draws colours over two axes. equal: a metre has the same length along both."""
-    drawn = _axes(ax)
-    values, text, unit = z
-    options: dict[str, Any] = {"shading": "nearest", "rasterized": True} | keywords
-    mesh = drawn.pcolormesh(np.asarray(x[0]), np.asarray(y[0]), np.asarray(values).T, **options)
-    if equal:
-        drawn.set_aspect("equal")
-    _name_axes(drawn, x[1:], y[1:], log)
-    figure = drawn.get_figure()
-    if figure is not None:
-        figure.colorbar(mesh, ax=drawn, label=_label(text, unit), format=_formatter(unit))
+def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True) -> Figure:
+    """Draws all panels in a new figure of matplotlib. width: of a figure for a journal, m."""
+    drawn = _new(pyplot)
+    from matplotlib import rc_context, rcParams
+
+    if width is not None and not 0.06 <= width <= 1:
+        raise refusal("width", f"{width:g}", "must be >= 0.06 and <= 1 m")
+    count = len(figure.panels)
+    columns = min(count, figure.columns or math.ceil(math.sqrt(count)))
+    if width:
+        columns = min(columns, max(1, int(width / _PANEL[0])))
+    with rc_context(_JOURNAL) if width else nullcontext():
+        across = width / 0.0254 if width else rcParams["figure.figsize"][0] * math.sqrt(columns)
+        rows = math.ceil(count / columns)
+        high = _PANEL[1] * across / columns * rows
+        drawn.set_size_inches(across, high)
+        if figure.title:
+            drawn.suptitle(_wrapped(figure.title, 72 * across, rcParams["font.size"] * 1.2))
+        for k, panel in enumerate(figure.panels):
+            _panel(drawn.add_subplot(rows, columns, k + 1), panel, {})
+        # Room for the legends below the panels.
+        drawn.draw_without_rendering()
+        legends = [ax.get_legend() for ax in drawn.axes if ax.get_subplotspec()]
+        tall = [legend.get_window_extent().height / drawn.dpi if legend else 0.0 for legend in legends]
+        drawn.set_size_inches(across, high + sum(max(tall[row : row + columns]) for row in range(0, count, columns)))
     return drawn
 
 
-def _steps(values: str, first: int = 1) -> Callable[[Any], npt.NDArray[Any]]:
-    """The numbers first, first + 1, … of the values of an attribute."""
-    return lambda result: np.arange(first, first + len(getattr(result, values)))
+def save_figure(figure: Any, file: Any, width: float | None = None, overwrite: bool = False) -> None:
+    """Writes a picture, whose suffix is that of its format, or the numbers as .json."""
+    path = Path(file)
+    if path.exists() and not overwrite:
+        raise refusal("file", str(path), "exists; overwrite it with overwrite=True")
+    if path.suffix == ".json":
+        path.write_text(figure.json(), encoding="utf-8")
+        return
+    if path.suffix not in (".png", ".svg", ".pdf"):
+        raise refusal("file", str(path), "must end in .png, .svg, .pdf or .json")
+    from matplotlib import rc_context
+
+    with rc_context(_EDITABLE):
+        plot_figure(figure, width, False).savefig(path, dpi=300)
 
 
-def _falling_work(result: _core.AsperityDamping) -> npt.NDArray[Any]:
-    return np.sort(result.work[result.work > 0])[::-1]
+def svg(figure: Any) -> str:
+    """The figure as an element of a page, with text as text."""
+    drawn = plot_figure(figure, None, False)
+    from matplotlib import rc_context
 
-
-def _window(result: _core.ExponentialFit) -> npt.NDArray[Any]:
-    return np.array([result.window.pressure_min, result.window.pressure_max])
-
-
-_PART = np.linspace(0.0, 1.0, 201)
-_GAP, _PRESSURE, _HEIGHT = ("mean_gap", "mean gap ū", "m"), ("pressure", "pressure p", "Pa"), ("heights", "height", "m")
-_SPECTRUM = ("wavenumber", "wave number q", "rad/m"), ("psd", "C(q)", "m⁴")
-_NORMAL_FORCE = (_steps("force", 0), "step of the path", "1"), ("force", "normal force F", "N")
-
-# Lines: the quantities along x and y, the logarithmic axes, and the style.
-_LINES: dict[type, tuple[_Along, _Along, str, dict[str, Any]]] = {
-    _core.ExponentialFit: (
-        (lambda fit: fit.decay_length * np.log(fit.reference_pressure / _window(fit)), *_GAP[1:]), (_window, *_PRESSURE[1:]),
-        "y", {"linestyle": "--", "label": "exp(−ū/l)"},
-    ),
-    # Number of spots at least as large, and number in classes of size that double.
-    _core.ContactSpots: (("area", "area of a spot", "m²"), (_steps("area"), "spots at least as large", "1"), "xy", {"drawstyle": "steps-pre"}),
-    _core.SpotStatistics: (
-        (lambda spots: 2.0 ** _steps("spots_by_size", 0)(spots), "cells of a spot, at least", "1"), ("spots_by_size", "spots", "1"),
-        "x", {"drawstyle": "steps-post"},
-    ),
-    _core.Profile: ((lambda profile: _steps("heights", 0)(profile) * profile.dx, "x", "m"), _HEIGHT, "", {}),
-    # Losses of the summits in decreasing order.
-    _core.AsperityDamping: (
-        (lambda loss: np.arange(1, len(_falling_work(loss)) + 1), "summit", "1"), (_falling_work, "loss in a cycle", "J"), "xy", {},
-    ),
-    _core.SurfacePicture: (*_SPECTRUM, "xy", {}),
-    _core.RadialSpectrum: (*_SPECTRUM, "xy", {}),
-    _core.ProfilePsd: (_SPECTRUM[0], ("profile_psd", "C₁(q)", "m³"), "xy", {}),
-    _core.BearingCurve: (
-        (_PART, "part of the surface above", "1"), (lambda curve: curve.height(_PART), "height", "m"), "", {},
-    ),
-    _core.SampledMotion: (("displacement", "displacement x", "m"), ("indentation", "indentation δ", "m"), "", {}),
-    _core.TrajectoryDamping: (
-        (_steps("tangential_force", 0), "step of the period", "1"), ("tangential_force", "tangential force F_x", "N"), "", {},
-    ),
-    _core.CycleResult: (("tangential", "tangential displacement x", "m"), ("tangential_force", "tangential force F_x", "N"), "", {}),
-    _core.SliderMotion: (("time", "time t", "s"), ("slider_offset", "distance from the drive x − Vt", "m"), "", {}),
-    _core.ViscoelasticDamping: (*_NORMAL_FORCE, "", {}),
-    _core.ViscoelasticIndentation: (*_NORMAL_FORCE, "", {}),
-    _core.LocalDecayLength: (_GAP, ("local_decay_length", "local decay length l", "m"), "", {"marker": "."}),
-    _core.Correlation: (("distance", "distance", "m"), ("autocorrelation", "autocorrelation", "m²"), "", {}),
-    _core.ScaleDependence: (("spacing", "distance", "m"), ("profile_slope", "rms slope", "1"), "xy", {}),
-    _core.HeightHistogram: (("height", "height", "m"), ("height_density", "density", "1/m"), "", {"drawstyle": "steps-mid"}),
-}  # fmt: skip
-
-
-def _logarithm(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    return np.log10(np.where(values > 0, values, np.nan))
-
-
-def _shear_limits(result: _core.StressMap) -> dict[str, Any]:
-    """Limits of the colours, without which the two singularities would use the whole range."""
-    finite = np.abs(result.shear[np.isfinite(result.shear)])
-    limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
-    return {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit}
-
-
-_OVER_GRID = (lambda of: points(of.grid, "x"), "x", "m"), (lambda of: points(of.grid, "y"), "y", "m")
-
-# Maps: the quantities along x and y and in colour, the logarithmic axes, and the style.
-_MAPS: dict[type, tuple[_Along, _Along, _Along, str, Callable[[Any], dict[str, Any]] | None]] = {
-    _core.Surface: (*_OVER_GRID, _HEIGHT, "", None),
-    _core.NormalContactState: (*_OVER_GRID, ("contact_pressure", "pressure", "Pa"), "", lambda _: {"cmap": "magma"}),
-    _core.PowerSpectrum: (
-        (lambda spectrum: np.sort(spectrum.wavenumber_x), "wave number q_x", "rad/m"), ("wavenumber_y", "wave number q_y", "rad/m"),
-        (lambda spectrum: _logarithm(spectrum.psd)[np.argsort(spectrum.wavenumber_x)], "log₁₀ C, C in m⁴", "1"), "", None,
-    ),
-    _core.CorrelationMap: (
-        (lambda map: (np.arange(len(map.autocorrelation)) - len(map.autocorrelation) // 2) * map.grid.dx, "distance along x", "m"),
-        (lambda map: np.arange(map.autocorrelation.shape[1]) * map.grid.dy, "distance along y", "m"),
-        ("autocorrelation", "autocorrelation", "m²"), "", None,
-    ),
-    _core.StressMap: (("angle", "phase θ", "rad"), ("radial_position", "radius r", "m"), ("shear", "shear stress τ", "Pa"), "", _shear_limits),
-    _core.FrictionMap: (
-        ("friction_number", "M = μE*u_z/(G*u_x)", "1"), ("phase", "phase φ₀", "rad"), ("loss_ratio", "W(μ)/W(∞)", "1"), "x", None,
-    ),
-    _core.RegimeMap: (
-        ("velocity", "velocity v", "m/s"), ("excursion", "excursion X", "m"),
-        (lambda map: np.log10(map.loss_ratio), "log₁₀ W/W(no slip)", "1"), "xy", None,
-    ),
-    _core.DamperMap: (
-        ("normal_amplitude", "normal amplitude u_z", "m"), ("angular_frequency", "angular frequency ω", "rad/s"),
-        ("damping_constant", "damping constant γ", "N s/m"), "xy", None,
-    ),
-}  # fmt: skip
-
-# Results of which a part is drawn.
-_PARTS = {_core.MonteCarloCurve: "mean", _core.NonGaussianSurface: "surface"}
-
-
-@singledispatch
-def plot(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws a result."""
-    kind = type(result)
-    if kind in _PARTS:
-        return plot(getattr(result, _PARTS[kind]), ax, **keywords)
-    if kind in _LINES:
-        x, y, log, look = _LINES[kind]
-        return _line(ax, _of(result, x), _of(result, y), log, look | keywords)
-    if kind in _MAPS:
-        x, y, z, log, looks = _MAPS[kind]
-        look = looks(result) if looks else {}
-        return _map(ax, _of(result, x), _of(result, y), _of(result, z), log, look | keywords, x is _OVER_GRID[0])
-    raise TypeError(f"{kind.__name__} has no picture")
-
-
-@plot.register(_core.ForceCurve)
-def _(
-    result: _core.ForceCurve, ax: Axes | None = None, fit: _core.ExponentialFit | bool = True, **keywords: Any
-) -> Axes:
-    """Draws the curve and an exponential law fitted to it. fit=False draws no law; an ExponentialFit is drawn instead."""
-    keywords = {"marker": ".", "label": result.model or "curve"} | keywords
-    if np.isnan(result.mean_gap).any():
-        return _line(ax, (result.indentation, "indentation δ", "m"), (result.force, "force F", "N"), "y", keywords)
-    drawn = _line(ax, _of(result, _GAP), _of(result, _PRESSURE), "y", keywords)
-    if fit is True:
-        try:
-            fit = _core.fit_exponential(result)
-        except _core.Error:  # too few points in the window
-            fit = False
-    if isinstance(fit, _core.ExponentialFit):
-        law = fit.reference_pressure * np.exp(-result.mean_gap / fit.decay_length)
-        drawn.plot(result.mean_gap, law, "--", label=f"exp(−ū/l), l = {shown(fit.decay_length, 'm')}")
-        drawn.legend()
-    return drawn
-
-
-@plot.register(_core.ModelResult)
-def _(result: _core.ModelResult, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws the curve with the name of the model in the study."""
-    return plot(result.curve, ax, **({"label": result.model} | keywords))
-
-
-@plot.register(_core.Realisation)
-def _(result: _core.Realisation, ax: Axes | None = None, **keywords: Any) -> Axes:
-    drawn = _axes(ax)
-    for model in result.models:
-        plot(model, drawn, **({"fit": model.model == "bem"} | keywords))
-    return drawn
-
-
-@plot.register(_core.StudyResult)
-def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws pressure over mean gap of each model, as means over the surfaces."""
-    drawn = _axes(ax)
-    for model in result.models:
-        drawn.plot(result.curve("mean_gap", model).mean, result.pressures, **({"marker": ".", "label": model} | keywords))
-    _name_axes(drawn, _GAP[1:], _PRESSURE[1:], "y")
-    drawn.legend()
-    return drawn
-
-
-def _bars(means: Any) -> npt.NDArray[Any] | None:
-    """Lengths of error bars below and above means: to the 95 % limits if there are any, else the numerical errors."""
-    limits = np.array([means.mean - means.low, means.high - means.mean])
-    errors = np.array([means.error] * 2) if hasattr(means, "error") else limits
-    bars = errors if np.isnan(limits).all() else limits
-    return None if np.isnan(bars).all() else bars
-
-
-@plot.register(_core.MeanCurve)
-@plot.register(_core.StatedMeanCurve)
-def _(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws the means with their 95 % limits."""
-    drawn = _axes(ax)
-    drawn.errorbar(result.values, result.mean, _bars(result), **({"marker": "."} | keywords))
-    x, y = (_core.quantity(name)[::-1] for name in (result.coordinate, result.quantity))
-    _name_axes(drawn, x, y, "")
-    return drawn
-
-
-@plot.register(_core.SpotCurve)
-@plot.register(_core.FlowFactorCurve)
-def _(result: Any, ax: Axes | None = None, quantity: str = "", **keywords: Any) -> Axes:
-    """Draws a quantity of the curve, by default the first."""
-    name = quantity or [name for name in columns(result) if name != result.coordinate][0]
-    x, y = ((getattr(result, one), _core.quantity(one)[1], unit_of(result, one)) for one in (result.coordinate, name))
-    return _line(ax, x, y, "x", {"marker": "."} | keywords)
-
-
-@plot.register(_core.StudySolution)
-def _(result: _core.StudySolution, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws the damping constant over pressure with its 95 % intervals (numerical errors for one surface), and without slip."""
-    drawn = _axes(ax)
-    found = result.damping_constant
-    drawn.errorbar(
-        result.pressures, found.mean, _bars(found),
-        **({"marker": ".", "label": "with slip" if result.slip_followed else "without slip"} | keywords),
-    )  # fmt: skip
-    if result.slip_followed:
-        drawn.plot(result.pressures, result.damping_constant_without_slip.mean, "--", label="without slip")
-    _name_axes(drawn, _PRESSURE[1:], ("damping constant γ", "N s/m"), "xy")
-    drawn.legend()
-    return drawn
-
-
-@plot.register(_core.DampingCurve)
-@plot.register(_core.DampingPointCurve)
-def _(result: _core.DampingCurve | _core.DampingPointCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws the damping constant with its numerical error, and the damping constant without slip."""
-    drawn = _axes(ax)
-    slip = not np.isnan(result.slip_work).all()
-    error = result.damping_constant_error
-    drawn.errorbar(
-        result.values, result.damping_constant, None if np.isnan(error).all() else error,
-        **({"marker": ".", "label": "as described" if slip else "without slip"} | keywords),
-    )  # fmt: skip
-    if slip:
-        drawn.plot(result.values, result.damping_constant_without_slip, "--", label="without slip")
-    unit, name = _core.quantity(result.coordinate)
-    _name_axes(drawn, (name, unit), ("damping constant γ", "N s/m"), "xy")
-    drawn.legend()
-    return drawn
-
-
-@plot.register(_core.SummitList)
-def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes:
-    drawn = _axes(ax)
-    drawn.hist(result.height, **({"bins": 40} | keywords))
-    _name_axes(drawn, ("height of the summit", "m"), ("summits", "1"), "")
-    return drawn
-
-
-@plot.register(_core.ContactSetAt)
-def _(result: _core.ContactSetAt, ax: Axes | None = None, **keywords: Any) -> Axes:
-    drawn = _axes(ax)
-    drawn.imshow(result.contact.T, **({"origin": "lower", "cmap": "Greys"} | keywords))
-    _name_axes(drawn, ("cell along x", "1"), ("cell along y", "1"), "")
-    return drawn
-
-
-@plot.register(_core.ConvertedPsd)
-def _(result: _core.ConvertedPsd, ax: Axes | None = None, **keywords: Any) -> Axes:
-    x, y = ((getattr(result, name), text, unit_of(result, name)) for name, text in (("wavenumber", "wave number"), ("psd", "power spectral density")))
-    return _line(ax, x, y, "xy", keywords)
-
-
-def plot_law(law: _core.ContactLaw, indentation: npt.ArrayLike, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Draws F(δ)."""
-    return _line(ax, (indentation, "indentation δ", "m"), (law.force(indentation), "force F", "N"), "y", keywords)
+    with rc_context(_EDITABLE), io.StringIO() as file:
+        drawn.savefig(file, format="svg", dpi=72, metadata={"Date": None})
+        text = file.getvalue()
+    return text[text.index("<svg") :].replace("<svg ", '<svg style="max-width:100%;height:auto" ', 1)

@@ -96,13 +96,25 @@ def text(result: Any) -> str:
     return f"{type(result).__name__}({', '.join(parts)})"
 
 
+def _picture(result: Any) -> str:
+    """The figure of a result as SVG; empty without matplotlib, and for a result that has nothing to draw."""
+    if isinstance(result, _core.ContactLaw):  # drawn over the indentations that it is given
+        return ""
+    try:
+        from . import _plots
+
+        return _plots.svg(result if isinstance(result, _core._figures.Figure) else result.figure())
+    except (AttributeError, ImportError, _core.Error):
+        return ""
+
+
 def html(result: Any) -> str:
-    """A table of names, values and what they mean."""
+    """The picture, and a table of names, values and what they mean."""
     rows = "".join(
         f"<tr><td>{_html.escape(name)}</td><td>{_html.escape(shown(value, unit))}</td><td>{_html.escape(said)}</td></tr>"
         for name, value, unit, said in _values(result)
     )
-    return f"<table><caption>{_html.escape(type(result).__name__)}</caption><tbody>{rows}</tbody></table>"
+    return f"{_picture(result)}<table><caption>{_html.escape(type(result).__name__)}</caption><tbody>{rows}</tbody></table>"
 
 
 def columns(result: Any) -> dict[str, Any]:

@@ -140,7 +140,7 @@ void bind_regime_map(nb::module_& m) {
   auto map = described_class<RegimeMap>(
       m, "RegimeMap",
       "Regimes of slip in a slow tangential motion, over its velocity and its excursion.");
-  result_methods(map, true);
+  result_methods(map);
   m.def(
       "regime_map",
       [](const ContactLaw& law, double mean_indentation, double normal_amplitude,

@@ -36,5 +36,6 @@ void bind_study(nanobind::module_& module);
 void bind_twin(nanobind::module_& module);
 void bind_results(nanobind::module_& module);
 void bind_values(nanobind::module_& module);
+void bind_figures(nanobind::module_& module);
 
 }  // namespace salebra::python

@@ -197,7 +197,7 @@ Unless `converged`, the numbers describe the last iterate: do not use them.
           nb::sig("def gather(self, root: int = 0) -> NormalContactState | None"),
           "The state with complete fields in one process, None in the others; see "
           ":meth:`Surface.gather`.");
-  result_methods(state, true);
+  result_methods(state);
 }
 
 void bind_presses(nb::module_& m) {

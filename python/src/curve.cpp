@@ -86,7 +86,7 @@ model : str
       nb::arg("tangential_stiffness") = nb::none(), nb::arg("rms_height") = ForceSample::unknown,
       nb::arg("model") = "measured");
   curve.def("__len__", [](const ForceCurve& self) { return self.samples.size(); });
-  result_methods(curve, true);
+  result_methods(curve);
 }
 
 void bind_sweep(nb::module_& m) {
@@ -230,7 +230,7 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       "window, with the weights of :func:`fit_exponential`.");
   auto local = described_class<LocalDecayLength>(m, "LocalDecayLength",
                                                  "l(ū) = −dū/d ln p between consecutive samples.");
-  result_methods(local, true);
+  result_methods(local);
   m.def("local_decay_length", &local_decay_length, nb::arg("curve"),
         "l(ū) at the midpoints between consecutive samples.");
 }

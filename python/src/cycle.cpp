@@ -119,7 +119,7 @@ boundary_element_contact_sets : the contact sets of a surface.
 void bind_result(nb::module_& m) {
   auto result =
       described_class<CycleResult>(m, "CycleResult", "A simulated period; columns are views.");
-  result_methods(result, true);
+  result_methods(result);
 }
 
 // Runs simulate(options, progress), and writes and reads the checkpoint if there is one.

@@ -355,7 +355,7 @@ void bind_damper(nb::module_& m) {
 
   auto map =
       described_class<DamperMap>(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
-  result_methods(map, true);
+  result_methods(map);
   m.def(
       "damper_map",
       [](const ContactLaw& law, const Values& normal_amplitudes, const Values& angular_frequencies,

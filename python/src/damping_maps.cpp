@@ -20,7 +20,7 @@ void bind_friction_map(nb::module_& m) {
   auto friction = described_class<FrictionMap>(m, "FrictionMap",
                                                "Losses with friction over the loss in full stick: "
                                                "shows when friction acts as \"infinite\".");
-  result_methods(friction, true);
+  result_methods(friction);
   m.def(
       "friction_map",
       [](const ContactLaw& law, double mean_indentation, double normal_amplitude,
@@ -42,7 +42,7 @@ void bind_stress_map(nb::module_& m) {
       m, "StressMap",
       "Stresses under an axisymmetric indenter over phases and radii: Fig. 4 of "
       "doi:10.1038/srep16189.");
-  result_methods(stress, true);
+  result_methods(stress);
   m.def(
       "stress_map",
       [](const IndenterLaw& law, double mean_indentation, const Oscillation& motion, int phases,

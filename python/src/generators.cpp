@@ -6,6 +6,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <salebra/figures/figures.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/exact_rms.hpp>
@@ -291,7 +292,9 @@ void bind_non_gaussian(nb::module_& m) {
   };
   nb::class_<BoundNonGaussian> made(m, "NonGaussianSurface",
                                     "A surface and how its iteration ended.");
-  plot_method(made);
+  figure_methods(made, [](const BoundNonGaussian& self) {
+    return figures::figure_of(nb::cast<const BoundSurface&>(self.made).surface);
+  });
   describe(
       [&]<class Member>(Member NonGaussianSurface::*member, const auto& line) {
         if constexpr (!std::is_same_v<Member, Surface>) described_property(made, member, line);

@@ -54,15 +54,6 @@ highest_indentation they raise InvalidInput; below first_touch they return 0.
          "indentations at which F, K, K_t or a first derivative jumps");
   law.def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
       .def(
-          "plot",
-          [](nb::handle_t<ContactLaw> self, nb::args arguments, nb::kwargs keywords) {
-            return call_python("salebra._plots", "plot_law", self, arguments, keywords);
-          },
-          nb::sig("def plot(self, indentation: numpy.typing.ArrayLike, ax: matplotlib.axes.Axes | "
-                  "None = None, **kwargs: "
-                  "typing.Any) -> matplotlib.axes.Axes"),
-          "Draws F(δ) at the indentations given, m.")
-      .def(
           "export",
           [](const ContactLaw& self, const Choice<DeckFormat>& format,
              std::optional<double> indentation, double nominal_area, double friction_coefficient,

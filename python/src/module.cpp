@@ -37,4 +37,5 @@ NB_MODULE(_core, m) {
   bind_twin(m);
   bind_results(m);
   bind_values(m);
+  bind_figures(m);
 }

@@ -31,7 +31,7 @@ void bind_spectra(nb::module_& m) {
 
 on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. If the surface is distributed over processes, each has some of the columns j.
 )");
-  result_methods(power, false);
+  result_methods(power);
   m.def(
       "power_spectrum",
       [](const BoundSurface& surface, const Choice<Window>& window) {
@@ -51,13 +51,13 @@ window : {"default", "none", "hann", "blackman", "welch", "radial_hann"}
 
   auto radial = described_class<RadialSpectrum>(m, "RadialSpectrum",
                                                 "C averaged over rings of wave vectors.");
-  result_methods(radial, true);
+  result_methods(radial);
   m.def("radial_spectrum", &radial_spectrum, nb::arg("spectrum"), nb::arg("bins_per_octave") = 4,
         "Averages C over rings whose limits have the ratio 2^(1/bins_per_octave).");
 
   auto profile = described_class<ProfilePsd>(
       m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
-  result_methods(profile, true);
+  result_methods(profile);
   m.def(
       "profile_psd",
       [](const BoundSurface& surface, const Choice<Axis>& axis, const Choice<Window>& window) {
@@ -136,7 +136,7 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
         "Correlation of a surface, without its undefined points.");
   auto correlation = described_class<Correlation>(
       m, "Correlation", "Autocorrelation and structure function over distance.");
-  result_methods(correlation, true);
+  result_methods(correlation);
   m.def(
       "profile_correlation",
       [](const CorrelationMap& map_, const Choice<Axis>& axis) {
@@ -151,7 +151,7 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
       m, "ScaleDependence",
       "Slope and curvature along one axis, over the distance used in the finite differences, "
       "doi:10.1016/j.apsadv.2021.100190.");
-  result_methods(scale, true);
+  result_methods(scale);
   m.def(
       "scale_dependence",
       [](const BoundSurface& surface, const Choice<Axis>& axis) {
@@ -207,7 +207,7 @@ void bind_bearing(nb::module_& m) {
   auto histogram = described_class<HeightHistogram>(
       m, "HeightHistogram",
       "Density of heights in bins of equal width, at the middles of the bins.");
-  result_methods(histogram, true);
+  result_methods(histogram);
   m.def("height_histogram", &height_histogram, nb::arg("curve"), nb::arg("bins") = 0,
         "Histogram of the heights. bins = 0: bins of width 2·(interquartile range)/N^(1/3), "
         "doi:10.1007/BF01025868.");

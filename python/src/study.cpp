@@ -228,7 +228,7 @@ void bind_result(nb::module_& m) {
                  pressures);
   curve_property(answer, "thermal_conductance", &S::thermal_conductance, pressures);
   curve_property(answer, "electrical_conductance", &S::electrical_conductance, pressures);
-  result_methods(answer, true);
+  result_methods(answer);
   answer.def("__repr__", [](const StudySolution& self) {
     return fmt::format("StudySolution(validity='{}', {} pressures)", name_of(self.validity),
                        self.damping_constant.size());
@@ -338,7 +338,7 @@ void bind_result(nb::module_& m) {
           "Writes an HDF5 file. xarray opens each group: "
           "xarray.open_dataset(file, engine=\"h5netcdf\", "
           "group=\"damping\").");
-  result_methods(result, false);
+  result_methods(result);
 }
 
 /// Calls warn_user() during a run, in which the interpreter's lock is not held.

@@ -286,7 +286,7 @@ Examples
                format_quantity(grid.ly, Dimension::length) +
                (self.surface.periodic ? ", periodic" : ", not periodic") + ")";
       });
-  result_methods(surface, true);
+  result_methods(surface);
 }
 
 void bind_height_statistics(nb::module_& m) {

@@ -8,6 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <filesystem>
+#include <salebra/figures/figures.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/twin_file.hpp>
 #include <salebra/surface/plain_average.hpp>
@@ -227,6 +228,8 @@ InvalidInput
         return fmt::format("SurfaceTwin({} scans, form='{}', misfit={:.2g})",
                            self.measurements.size(), name_of(self.form), self.misfit);
       });
+  auto twin = nb::borrow<nb::class_<BoundTwin>>(nb::type<BoundTwin>());
+  figure_methods(twin, [](const BoundTwin& self) { return figures::figure_of(self); });
 }
 
 void bind_average(nb::module_& m) {

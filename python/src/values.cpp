@@ -45,16 +45,6 @@ std::string_view unpickled(const nb::tuple& state) {
 
 namespace {
 
-// Defines the method plot(), which calls salebra._plots, for these classes.
-template <class... Bound>
-void drawn_classes() {
-  const auto define = []<class T>(std::type_identity<T>) {
-    auto bound = nb::borrow<nb::class_<T>>(nb::type<T>());
-    if (!nb::hasattr(bound, "plot")) plot_method(bound);
-  };
-  (define(std::type_identity<Bound>{}), ...);
-}
-
 // Lets classes whose columns have one length behave as tables and as sequences of rows, by
 // salebra._show.
 template <class... Bound>
@@ -90,11 +80,6 @@ void bind_values(nb::module_& m) {
       surface, [](const BoundSurface& self) -> const Surface& { return self.surface; },
       [](BoundSurface* self, Surface&& given) { new (self) BoundSurface(std::move(given)); });
 
-  drawn_classes<ForceCurve, ExponentialFit, ContactSpots, SummitList, PowerSpectrum, CorrelationMap,
-                ConvertedPsd, Profile, MonteCarloCurve, AsperityDamping, TrajectoryDamping,
-                ViscoelasticDamping, ViscoelasticIndentation, ContactSetAt, SampledMotion,
-                SliderMotion, SpotStatistics, SurfacePicture, ModelResult, Realisation, StudyResult,
-                BearingCurve>();
   table_classes<ForceCurve, LocalDecayLength, ContactSpots, SummitList, RadialSpectrum, ProfilePsd,
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
                 MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion,

@@ -21,5 +21,8 @@ bool spans_decades(const std::vector<double>& values);
 /// A map of a field over the cells of a grid, in colours.
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                 const Axis& scale);
+/// Limit of the colour scale: the magnitude of shear stress that 2 % of the points with stress
+/// exceed. Otherwise the singularities of the stress would use up the scale.
+double colour_limit(const Field& shear);
 
 }  // namespace salebra::figures

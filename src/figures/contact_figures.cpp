@@ -112,12 +112,18 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
   const Axis pressure = axis_of("pressure", true, "nominal pressure p");
   Curve gaps = points_of(curve, curve.model.empty() ? "curve" : plain_text(curve.model),
                          &ForceSample::mean_gap, &ForceSample::pressure);
-  require(
-      !gaps.x.empty(), "curve", curve.samples.size(),
-      "samples, none of which converged with a mean gap and a pressure: there is nothing to draw");
+  // A measured curve may have no gap but an indentation.
+  const bool indented = gaps.x.empty();
+  if (indented) gaps = points_of(curve, gaps.name, &ForceSample::indentation, &ForceSample::force);
+  require(!gaps.x.empty(), "curve", curve.samples.size(),
+          "samples, none of which converged with a mean gap and a pressure, or with an indentation "
+          "and a force: there is nothing to draw");
   Panel& law = figure.panels.emplace_back();
-  law.x = axis_of("mean_gap", false, "mean gap ū");
-  law.y = pressure;
+  law.x = indented ? axis_of("indentation", false, "indentation δ")
+                   : axis_of("mean_gap", false, "mean gap ū");
+  law.y = indented ? axis_of("force", true, "normal force F") : pressure;
+  // A logarithmic axis cannot show tension.
+  law.y.logarithmic = std::ranges::none_of(gaps.y, [](double value) { return value < 0; });
   law.curves.push_back(std::move(gaps));
   if (fit) add_fit(law, *fit);
 

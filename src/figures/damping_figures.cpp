@@ -282,10 +282,6 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   return figure;
 }
 
-namespace {
-
-/// Limit of the colour scale: the magnitude of shear stress that 2 % of the points with stress
-/// exceed. Otherwise the singularities of the stress would use up the scale.
 double colour_limit(const Field& shear) {
   std::vector<double> sizes;
   for (Index i = 0; i < shear.rows(); ++i)
@@ -296,6 +292,8 @@ double colour_limit(const Field& shear) {
              ? 1
              : sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))];
 }
+
+namespace {
 
 /// The shear stress over the radius at one phase.
 Panel section_of(const OscillatingStress& stress, double angle, double most, double limit,

@@ -95,11 +95,13 @@ Figure figure_of(const SurfacePicture& picture, const std::vector<double>& press
                ? pressures[static_cast<std::size_t>(load)]
                : nothing;
   };
+  const double mapped = of_load(picture.mapped_load);
   const std::string at =
-      " at " + format_quantity(of_load(picture.mapped_load), Dimension::pressure, 3);
+      std::isfinite(mapped) ? " at " + format_quantity(mapped, Dimension::pressure, 3) : "";
   map(axis_of("heights", false, "height"), picture.heights,
       [&](std::size_t k) { return double(picture.heights[k]); });
-  if (std::ranges::any_of(picture.first_load, [](auto load) { return load >= 0; }))
+  if (!pressures.empty() &&
+      std::ranges::any_of(picture.first_load, [](auto load) { return load >= 0; }))
     map(axis_of("pressure", true, "pressure of first touch"), picture.first_load,
         [&](std::size_t k) { return of_load(picture.first_load[k]); });
   map(axis_of("contact_pressure", false, "contact pressure" + at), picture.contact_pressure,
@@ -177,6 +179,9 @@ Figure figure_of(const CycleResult& cycle) {
 }
 
 Figure figure_of(const StressMap& map) {
+  Axis stress = axis_of("shear", false, "shear stress τ");
+  stress.high = colour_limit(map.shear);
+  stress.low = -*stress.high;
   const auto panel = [&](const Field& values, const Axis& scale, Palette palette) {
     return Panel{.title = scale.label,
                  .x = {.quantity = "radial_position", .label = "radius r", .unit = "m"},
@@ -192,12 +197,11 @@ Figure figure_of(const StressMap& map) {
                              .y = map.angle,
                              .color = 6}}};
   };
-  return {
-      .kind = "stress_map",
-      .panels = {panel(map.shear, axis_of("shear", false, "shear stress τ"), Palette::diverging),
-                 panel(map.contact_pressure, axis_of("contact_pressure", false, "pressure p"),
-                       Palette::sequential)},
-      .columns = 2};
+  return {.kind = "stress_map",
+          .panels = {panel(map.shear, stress, Palette::diverging),
+                     panel(map.contact_pressure, axis_of("contact_pressure", false, "pressure p"),
+                           Palette::sequential)},
+          .columns = 2};
 }
 
 Figure figure_of(const SliderMotion& motion) {

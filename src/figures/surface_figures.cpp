@@ -206,13 +206,16 @@ Figure figure_of(const PowerSpectrum& spectrum) {
   Field values(spectrum.psd.rows(), spectrum.psd.cols());
   for (Index i = 0; i < values.rows(); ++i)
     values.row(i) = spectrum.psd.row(order[static_cast<std::size_t>(i)]);
+  Axis scale = axis_of("psd", true, "C(q)");
+  // Densities below are rounding errors.
+  if (const double most = values.maxCoeff(); most > 0) scale.low = 1e-20 * most;
   return {.kind = "power_spectrum",
           .panels = {{.x = {.label = "wave number q_x", .unit = "rad/m"},
                       .y = {.label = "wave number q_y", .unit = "rad/m"},
                       .image = Image{.x = along,
                                      .y = spectrum.wavenumbers_y(),
                                      .values = std::move(values),
-                                     .scale = axis_of("psd", true, "C(q)")},
+                                     .scale = std::move(scale)},
                       .equal_scales = true}}};
 }
 

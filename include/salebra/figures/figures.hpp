@@ -15,12 +15,14 @@ class BearingCurve;
 class ContactLaw;
 class IndenterLaw;
 struct AsperityDamping;
+struct ContactSetAt;
 struct ContactSpots;
 struct Correlation;
 struct CorrelationMap;
 struct CycleResult;
 struct DamperMap;
 struct DamperSolution;
+struct DampingPoint;
 struct DampingResult;
 struct ExponentialFit;
 struct ForceCurve;
@@ -28,6 +30,7 @@ struct FrictionMap;
 struct HeightHistogram;
 struct JointLoss;
 struct LocalDecayLength;
+struct ModelResult;
 struct NormalContactState;
 struct OscillationOutcome;
 struct ParameterLists;
@@ -47,6 +50,8 @@ struct Surface;
 struct SurfacePicture;
 struct SurfaceTwin;
 struct TrajectoryDamping;
+struct ViscoelasticDamping;
+struct ViscoelasticIndentation;
 struct ViscoelasticLoss;
 }  // namespace salebra
 
@@ -90,7 +95,7 @@ Figure figure_of(const Profile& profile);
 Figure figure_of(const SummitList& summits);
 /// The maps that a study keeps of a surface: heights, pressure of first touch, contact pressure and
 /// gap, as far as they are there; spectrum with the self-affine law; distribution of heights.
-/// pressures: of the study, Pa.
+/// pressures: of the study, Pa; empty: unknown, and the map of first touch is left out.
 Figure figure_of(const SurfacePicture& picture, const std::vector<double>& pressures);
 
 /// The power spectral density of a surface twin, which several scans have in common, with its 95 %
@@ -204,5 +209,19 @@ Figure figure_of(const StudyResult& result);
 /// The damping constants over the pressure with their 95 % limits, or with their numerical errors for
 /// a single surface; without slip too.
 Figure figure_of(const StudySolution& solution);
+
+/// Forces along a path or in a period, at each step.
+Figure figure_of(const TrajectoryDamping& loss);
+Figure figure_of(const ViscoelasticDamping& loss);
+Figure figure_of(const ViscoelasticIndentation& contact);
+/// The cells in contact.
+Figure figure_of(const ContactSetAt& set);
+/// The map of regimes without the line of one normal cycle, which needs the frequency.
+Figure figure_of(const RegimeMap& map);
+/// The fitted law alone, in its window.
+Figure figure_of(const ExponentialFit& fit);
+/// The curve of one model of a study with its fit, and the damping constants of one model.
+Figure figure_of(const ModelResult& result);
+Figure figure_of(const std::vector<DampingPoint>& points);
 
 }  // namespace salebra::figures

@@ -88,7 +88,7 @@ nb::class_<CurveOf<Item>> curve_class(nb::module_& module, const char* name, con
         "quantity", [](const Curve& self) { return self.quantity; },
         "Name of the quantity of the means, which decides their unit.");
   if constexpr (Described<Item>) value_methods(bound);
-  result_methods(bound, true);
+  result_methods(bound);
   return bound;
 }
 

@@ -82,32 +82,37 @@ auto of_surface(const BoundSurface& surface) {
 /// Makes a Python object of a surface; heights are not copied.
 BoundSurface* new_surface(Surface surface);
 
-/// Defines the methods to_xarray() and, if `plots`, plot(), which call salebra._results and
-/// salebra._plots.
-template <class Bound>
-void result_methods(nb::class_<Bound>& bound, bool plots);
-
 inline nb::object call_python(const char* module, const char* function, nb::handle self,
                               nb::args arguments, nb::kwargs keywords) {
   return nb::module_::import_(module).attr(function)(self, *arguments, **keywords);
 }
 
-/// Defines the method plot(), which calls salebra._plots.
-template <class Bound>
-void plot_method(nb::class_<Bound>& bound) {
+/// Defines the methods figure(), which is what drawn(const Bound&) makes, and plot(), by which
+/// salebra._plots draws a panel of it.
+template <class Bound, class Drawn>
+void figure_methods(nb::class_<Bound>& bound, Drawn drawn) {
+  if constexpr (std::invocable<Drawn, const Bound&>)
+    bound.def(
+        "figure",
+        [drawn](const Bound& self) {
+          require_whole_if_spread(self, "a figure");
+          return drawn(self);
+        },
+        "What is drawn of the result, as data.");
   bound.def(
       "plot",
-      [](nb::handle_t<Bound> self, nb::args arguments, nb::kwargs keywords) {
-        require_whole_if_spread(nb::cast<const Bound&>(nb::handle(self)), "a picture");
+      [](nb::handle self, nb::args arguments, nb::kwargs keywords) {
         return call_python("salebra._plots", "plot", self, arguments, keywords);
       },
-      nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
-              "matplotlib.axes.Axes"),
-      "Draws the result with matplotlib on `ax`, or on new axes, and returns the axes.");
+      nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, panel: int | str = 0, "
+              "**kwargs: typing.Any) -> matplotlib.axes.Axes"),
+      "Draws a panel of figure() with matplotlib on `ax`, or on new axes, and returns the axes. "
+      "panel: its number, or the name of its quantity.");
 }
 
+/// Defines the method to_xarray(), which calls salebra._results.
 template <class Bound>
-void result_methods(nb::class_<Bound>& bound, bool plots) {
+void result_methods(nb::class_<Bound>& bound) {
   bound.def(
       "to_xarray",
       [](nb::handle_t<Bound> self) {
@@ -117,7 +122,6 @@ void result_methods(nb::class_<Bound>& bound, bool plots) {
       nb::sig("def to_xarray(self) -> xarray.Dataset"),
       "The result as an xarray.Dataset; every variable has `units` (SI) and `long_name`. Needs "
       "xarray.");
-  if (plots) plot_method(bound);
 }
 
 }  // namespace salebra::python
