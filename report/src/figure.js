@@ -4,7 +4,22 @@
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const printing = matchMedia("print");
-const drawn = [];  // every figure on the page; drawn when all are in the page, and again when colours change
+const drawn = [];  // every figure on the page, drawn when it comes near and again when colours change
+
+/** Draws a figure when it comes near to what is in sight, so that the page opens without waiting for all of them. */
+const nearby = new IntersectionObserver((entries) => {
+  for (const {target} of entries.filter((entry) => entry.isIntersecting)) {
+    nearby.unobserve(target);
+    drawNow(drawn.filter((figure) => figure.element === target));
+  }
+}, {rootMargin: "60% 0px"});
+
+function drawNow(figures) {
+  for (const figure of figures) {
+    figure.near = true;
+    figure.redraw();
+  }
+}
 
 /** A colour of report.css. */
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -56,8 +71,9 @@ function addFigure(parent, spec) {
           }}, "CSV"),
         h("button", {type: "button", class: "svg", "aria-label": `Download the picture of ${plainText(spec.title)} as SVG`, onclick: () => pictureOf(spec.id, plot)}, "SVG"))),
       plot, legend, caption, details),
+    near: false,
     redraw() {
-      draw(spec, state, plot, legend, figure);
+      if (figure.near) draw(spec, state, plot, legend, figure);
       plot.setAttribute("aria-label", plainText(spec.alt()));
       caption.replaceChildren(h("b", {}, `Figure ${place}. `), ...rich(typeof spec.caption === "function" ? spec.caption() : spec.caption, true));
       if (details.open) fill();
@@ -68,6 +84,8 @@ function addFigure(parent, spec) {
   details.addEventListener("toggle", () => { if (details.open) fill(); });
   parent.append(figure.element);
   drawn.push(figure);
+  figure.redraw();
+  nearby.observe(figure.element);
   return figure;
 }
 
@@ -189,8 +207,10 @@ function redrawAll() {
   for (const figure of drawn) figure.redraw();
 }
 dark.addEventListener("change", redrawAll);
+addEventListener("beforeprint", () => drawNow(drawn));
 printing.addEventListener("change", () => {
-  for (const figure of drawn) Plotly.Plots.resize(figure.plot);
+  if (printing.matches) drawNow(drawn);
+  for (const figure of drawn.filter(({near}) => near)) Plotly.Plots.resize(figure.plot);
   redrawAll();
 });
 

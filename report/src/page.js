@@ -170,6 +170,7 @@ function heading(point) {
 
 function show(index) {
   const point = data.points[index], main = document.getElementById("main");
+  nearby.disconnect();
   for (const figure of drawn.splice(0)) Plotly.purge(figure.plot);
   onLoad.length = 0;
   chosenLoad = null;
@@ -224,7 +225,6 @@ function show(index) {
   if (point.convergence) section(main, "ensemble", "Number of surfaces", null, (body) => convergenceFigure(body, point));
   symbolsAndCitation(main);
   settings(main, point);
-  redrawAll();
 }
 
 document.getElementById("foot").append(h("p", {}, "Popov, Popov, Pohrt: ", h("i", {}, "Relaxation damping in oscillating contacts"), ", Sci. Rep. 5, 16189 (2015), ", h("a", {href: "https://doi.org/10.1038/srep16189", rel: "noreferrer"}, "doi:10.1038/srep16189"),

@@ -66,7 +66,7 @@ std::string base64(const std::vector<T>& values) {
 constexpr std::size_t max_single_curves = 24;
 /// Number of points of all surface maps of a page. With several points of the parameter grid, each
 /// map has its share.
-constexpr double map_budget = 512. * 512.;
+constexpr double map_budget = 320. * 320.;
 
 /// Reads the groups of one study, or of one point of its parameter grid, and makes their part of
 /// the payload.

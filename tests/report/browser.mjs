@@ -32,8 +32,18 @@ async function picture(page, name) {
   if (process.env.SALEBRA_SCREENSHOTS) await page.screenshot({path: join(folder, name), fullPage: true});
 }
 
+/** Scrolls through the page as a reader does; each figure is drawn when it comes into sight. */
+async function scrollThrough(page) {
+  for (const figure of await page.locator("figure").all()) {
+    await figure.evaluate((element) => element.scrollIntoView({block: "center", behavior: "instant"}));
+    await page.waitForFunction((id) => document.getElementById(`${id}-plot`).data, await figure.getAttribute("id"));
+  }
+  await page.evaluate(() => scrollTo({top: 0, behavior: "instant"}));
+}
+
 /** Each figure has visible curves, a name, a text for screen readers, and a table of finite numbers. */
 async function checkFigures(page, name, expected) {
+  await scrollThrough(page);
   const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
     const plot = figure.querySelector(".plot");
     figure.querySelector("details").open = true;
@@ -142,6 +152,15 @@ function parsed(text) {
 
 const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
   "damping-curve", "damping-deviation", "damping-models", "convergence"];
+
+// Only what is in sight is drawn at first; paper gets all of it.
+check(statSync(join(folder, "full.html")).size < 3e6, `full.html: has ${statSync(join(folder, "full.html")).size} bytes`);
+const paper = await open("full.html", {viewport: {width: 1280, height: 900}});
+const drawnNow = () => paper.evaluate(() => drawn.filter((figure) => figure.plot.data).length);
+check((await drawnNow()) < everyFigure.length / 2, `full.html: draws ${await drawnNow()} figures at once`);
+await paper.pdf({format: "A4"});
+check((await drawnNow()) === everyFigure.length, `full.html: prints ${await drawnNow()} of ${everyFigure.length} figures`);
+await paper.context().close();
 
 const full = await open("full.html", {viewport: {width: 1280, height: 900}, colorScheme: "light"});
 await checkFigures(full, "full.html", everyFigure);
