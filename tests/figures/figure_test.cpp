@@ -75,7 +75,7 @@ TEST_CASE("A curve that follows the exponential law lies on its fit in every pan
   fit.decay_length_high = 21e-9;
   fit.window = {curve.samples.back().pressure, curve.samples.front().pressure};
   const Figure figure = figure_of(curve, fit);
-  CHECK_THAT(figure.panels[0].title, Contains("20 nm (19 nm … 21 nm)"));
+  CHECK_THAT(figure.panels[0].title, Contains("20 nm (19 … 21)"));
   const ShadedRange& window = figure.panels[0].ranges.at(0);
   CHECK(window.low == Approx(curve.samples.front().mean_gap));
   CHECK(window.high == Approx(curve.samples.back().mean_gap));
