@@ -39,6 +39,7 @@ TOPICS = {
     "damping": "what moves, losses with and without slip, direct simulation",
     "closed_form": "formulas of the paper",
     "studies": "the whole path for an ensemble",
+    "figures": "what is drawn of results, as data",
     "files": "files of surfaces, curves and results",
     "session": "threads, versions, errors, quantities",
 }

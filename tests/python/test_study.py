@@ -253,10 +253,10 @@ def test_pictures_of_a_study_name_its_models_and_draw_its_answer() -> None:
     result = salebra.run_study(configuration.with_models(configuration.compared_models))
     realisation = result.realisations[0]
     lines = {line.get_label(): line for line in realisation.plot().get_lines()}
-    titles = [realisation.model(model).figure().panels[0].curves[0].name for model in result.models]
-    assert [title for title in lines if title in titles] == titles
-    for model, title in zip(result.models, titles):
-        assert np.array_equal(lines[title].get_ydata(), realisation.model(model).curve.pressure)
+    assert list(lines) == list(result.models)
+    for model in result.models:
+        assert np.array_equal(lines[model].get_ydata(), realisation.model(model).curve.pressure)
+        assert realisation.model(model).plot().get_lines()[0].get_label() == model
     # Each curve has a name of its own as well.
     assert len({realisation.model(model).curve.model for model in result.models}) == len(result.models)
 
