@@ -216,8 +216,11 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
     for shade in panel.ranges:
         (ax.axvspan if shade.vertical else ax.axhspan)(shade.low, shade.high, color="#808080", alpha=0.15, lw=0, label=_text(shade.name) or "_")
     if fresh:
-        ax.set_xlim(panel.x.low, panel.x.high)
-        ax.set_ylim(panel.y.low, panel.y.high)
+        for limits, limit, described in ((ax.get_xlim, ax.set_xlim, panel.x), (ax.get_ylim, ax.set_ylim, panel.y)):
+            limit(described.low, described.high)
+            low, high = limits()
+            if described.low is not None and described.high is None and not described.logarithmic:
+                limit(low, high + 0.05 * (high - low))  # the margin of the data alone is too narrow
         # A bar that ends near zero would extend a logarithmic axis by decades.
         values = [value for curve in panel.curves for value in (curve.y, () if curve.style == "points" else curve.low)]
         positive = [value for value in np.concatenate(values or [[]]) if value > 0]
