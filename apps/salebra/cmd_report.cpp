@@ -15,19 +15,35 @@ namespace {
 struct ReportArguments {
   std::string results;
   std::string title;
+  std::string pdf;
   std::vector<std::string> direct;
 };
 
 void run(const ReportArguments& arguments, Session& session) {
   const std::filesystem::path results = arguments.results;
-  auto page = session.output();
-  if (!session.has_output()) page = std::filesystem::path(results).replace_extension(".html");
-  if (!session.has_output()) session.writes("--output", page);
-  write_report(results, page,
-               {.write = session.write_options(),
-                .title = arguments.title,
-                .direct = {arguments.direct.begin(), arguments.direct.end()}});
-  session.answer(Json{{"file", page.string()}}, fmt::format("report: {}\n", page.string()));
+  const ReportOptions options{.write = session.write_options(),
+                              .title = arguments.title,
+                              .direct = {arguments.direct.begin(), arguments.direct.end()}};
+  Json answer = Json::object();
+  std::string text;
+  const auto written = [&](const char* name, const std::string& file) {
+    answer[name] = file;
+    text += fmt::format("report: {}\n", file);
+  };
+  // Both are checked before either is made.
+  if (!arguments.pdf.empty()) require_report_pdf(arguments.pdf, options.write);
+  if (arguments.pdf.empty() || session.has_output()) {
+    auto page = session.output();
+    if (!session.has_output()) page = std::filesystem::path(results).replace_extension(".html");
+    if (!session.has_output()) session.writes("--output", page);
+    write_report(results, page, options);
+    written("file", page.string());
+  }
+  if (!arguments.pdf.empty()) {
+    write_report_pdf(results, arguments.pdf, options);
+    written("pdf", arguments.pdf);
+  }
+  session.answer(answer, text);
 }
 
 }  // namespace
@@ -42,10 +58,16 @@ void add_report_command(Program& program) {
   command
       .add_option(
           "RESULTS", arguments->results,
-          "result file of study or compare; without --output, the page is written next to it")
+          "result file of study or compare; without --output and --pdf, the page is written next "
+          "to it")
       ->required()
       ->file(FileUse::input);
   command.add_option("--title", arguments->title, "heading of the page");
+  command
+      .add_option("--pdf", arguments->pdf,
+                  "prints the page to this file, by headless Chromium, which must be installed; "
+                  "with --output also writes the page")
+      ->file(FileUse::output);
   command
       .add_option("--direct", arguments->direct,
                   "result of oscillate for the same surface and motion, drawn with the damping "

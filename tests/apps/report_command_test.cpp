@@ -75,6 +75,36 @@ TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
   CHECK_THAT(test.read("sticky.html"), Contains("Adhesion: pull-off at"));
 }
 
+TEST_CASE("report prints by the Chromium that is installed, whole or not at all", "[report]") {
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
+  const ProgramTest test;
+  test.write("study.toml", study);
+  test.done("study study.toml --no-stick --no-report -o result.h5");
+  // Scripts stand for Chromium: one prints what it is given, the others fail in the two known ways.
+  const auto with = [&](const std::string& script) {
+    test.write("chromium", "#!/bin/sh\n" + script);
+    return test.run("report result.h5 --pdf page.pdf",
+                    "chmod +x chromium; PATH=$PWD:/usr/bin:/bin");
+  };
+  const std::string print =
+      "for word; do case $word in --print-to-pdf=*) pdf=${word#*=};; file://*) page=${word#*//};; "
+      "esac; done\ngrep -q 'id=\"data\"' \"$page\" && ";
+  const auto cut = with(print + "echo %PDF >\"$pdf\"");
+  CHECK(cut.status == 1);
+  CHECK_THAT(cut.err, Contains("page.pdf: chromium did not print the page"));
+  const auto failed = with("echo no display >&2; exit 3");
+  CHECK(failed.status == 1);
+  CHECK_THAT(failed.err, Contains("(no display); no file was written"));
+  CHECK(test.files() == "study.toml result.h5 chromium");
+  CHECK(with(print + "printf '%%PDF-1.4 sheets %%%%EOF' >\"$pdf\"").status == 0);
+  CHECK(test.read("page.pdf") == "%PDF-1.4 sheets %%EOF");
+  check_refused(with("touch called"), "page.pdf: exists");
+  CHECK(test.files() == "study.toml result.h5 chromium page.pdf");
+  check_refused(test.run("report result.h5 --pdf other.pdf", "PATH=/nowhere"),
+                "other.pdf: needs Chromium, and PATH has no chromium");
+}
+
 TEST_CASE("report refuses what holds no study", "[report]") {
   if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
     return;

@@ -318,6 +318,10 @@ check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next t
 const sheets = linesOfSheets(join(folder, "full.pdf"));
 check(sheets.length > 4 && sheets.length <= 9, `full.html: prints on ${sheets.length} sheets`);
 for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.55, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
+// The program prints the same sheets, with every figure.
+execFileSync(program, ["report", join(folder, "full.h5"), "--pdf", join(folder, "printed.pdf"), "--quiet"], {stdio: ["ignore", "ignore", "pipe"]});
+const printed = linesOfSheets(join(folder, "printed.pdf"));
+check(Math.abs(printed.length - sheets.length) <= 1 && printed.flat().length > 0.9 * sheets.flat().length, `printed.pdf: has ${printed.flat().length} lines on ${printed.length} sheets, full.pdf ${sheets.flat().length} on ${sheets.length}`);
 await full.emulateMedia({media: "print"});
 check((await full.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "full.html: prints on dark paper");
 await picture(full, "full-print.png");

@@ -37,4 +37,19 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
                   const ReportOptions& options = {});
 
+/// Checks that a report can be printed, before a long computation: throws wherever require_report()
+/// does, and InvalidInput if the folders of PATH have neither chromium, chromium-browser nor
+/// google-chrome.
+void require_report_pdf(const std::filesystem::path& pdf, const WriteOptions& options = {});
+
+/// Writes the page of write_report() as PDF, printed by headless Chromium:
+///     write_report_pdf("study.h5", "study.pdf");
+/// The file appears complete or not at all; a folder beside it, removed at the end, holds the page
+/// meanwhile.
+/// throws  wherever write_report() and require_report_pdf() do, and IoError if Chromium does not
+///         print the page within two minutes
+/// cost    a few seconds
+void write_report_pdf(const std::filesystem::path& results, const std::filesystem::path& pdf,
+                      const ReportOptions& options = {});
+
 }  // namespace salebra
