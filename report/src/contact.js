@@ -29,19 +29,6 @@ function facts(point) {
   return result;
 }
 
-/** The loop of an adhesive cycle. */
-function adhesionFigure(parent, point) {
-  const adhesion = point.adhesion, gap = adhesion.mean_gap, branches = [["approach", "loading_pressure", "bem"], ["separation", "unloading_pressure", "gw_moments"]];
-  addFigure(parent, {
-    id: "adhesion-loop", title: "Pressure over mean gap in a cycle", height: 420,
-    alt: () => `Nominal pressure over mean gap, on approach and on separation; the largest pull is ${quantity(-Math.min(...adhesion.unloading_pressure.mean.filter(known)), "Pa", 3)}.`,
-    caption: "Adhesive surfaces approach and separate in steps of the gap. At negative pressures the contact pulls the surfaces together. The area between the two branches is the work lost in a cycle.",
-    axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: false}},
-    columns: () => [{label: "mean gap", key: "mean_gap", unit: "m", values: gap}, ...branches.flatMap(([title, name]) => estimateColumns(title, name, "Pa", adhesion[name]))],
-    plot: () => ({series: branches.flatMap(([title, name, style]) => band(title, gap, adhesion[name], styleOf(style), {text: gap.map((g, i) => `${title}: ${quantity(adhesion[name].mean[i], "Pa", 3)}<br><i>ū</i> = ${quantity(g, "m", 3)}`)}))}),
-  });
-}
-
 function forceGapFigure(parent, point) {
   const f = facts(point), gap = point.curve.mean_gap.bem;
   const fitted = known(f.length);
@@ -152,7 +139,7 @@ function modelFigure(parent, point, {id, title, quantity: name, convert, y, capt
 }
 
 function modelFigures(parent, point) {
-  const spots = point.spots?.corrected_area_fraction;
+  const spots = point.edge_corrected_area_fraction;
   modelFigure(parent, point, {
     id: "area-load", title: "Contact area", quantity: "contact_area_fraction",
     y: {label: "contact area ‹A›/‹A›_{0}", short: "‹A›/‹A›_{0}", unit: "1", log: true},

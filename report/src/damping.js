@@ -110,20 +110,6 @@ function dampingRatioFigure(parent, point) {
   });
 }
 
-function convergenceFigure(parent, point) {
-  const convergence = point.convergence;
-  if (!convergence?.mean?.some(known)) return;
-  const last = convergence.mean.length - 1;
-  addFigure(parent, {
-    id: "convergence", title: "Convergence of the mean", height: 300,
-    alt: () => `Mean of l over rms height over the first surfaces: ${number(convergence.mean[last], 3)} after ${convergence.surfaces[last]} surfaces, 95 % interval ${interval({low: convergence.low[last], high: convergence.high[last]}, "1")}.`,
-    caption: "Mean of ‹l›/‹h›_{rms} of boundary elements over the first 2, 3, … surfaces, with its 95 % interval. If the band still drifts at the end, use more seeds.",
-    axes: {x: {label: "surfaces", unit: "1", log: false, fixed: true}, y: {label: "‹l›/‹h›_{rms}", unit: "1", log: false, fixed: true}},
-    columns: () => [{label: "surfaces", key: "surfaces", unit: "1", values: convergence.surfaces}, ...estimateColumns("‹l›/‹h›_{rms}", "decay_length_over_rms_height", "1", convergence)],
-    plot: () => ({series: band("mean", convergence.surfaces, convergence, {color: "blue", symbol: "circle", dash: "solid"}, {text: convergence.surfaces.map((n, i) => `${n} surfaces: ${number(convergence.mean[i], 4)}<br>95 %: ${interval({low: convergence.low[i], high: convergence.high[i]}, "1")}`)})}),
-  });
-}
-
 /** Compares the points of a parameter grid. */
 function overviewFigure(parent, data) {
   const ratio = data.overview?.decay_length_over_rms_height;

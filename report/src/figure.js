@@ -243,6 +243,80 @@ function estimateColumns(label, key, unit, estimate) {
   return columns;
 }
 
+// Figures of the library: include/salebra/figures/figure.hpp describes their members.
+
+const CURVE_STYLES = [["blue", "circle"], ["vermilion", "square"], ["green", "diamond"], ["purple", "triangle-up"], ["ochre", "cross"], ["slate", "x"], ["ink", "circle-open"], ["muted", "circle-open"], ["vermilion", "star"]];
+const CURVE_DASHES = {dashed: "dash", dotted: "dot"};
+const PALETTES = {sequential: "Viridis", diverging: "RdBu", grey: "Greys"};
+
+/** The text of a figure of the library in the markup of the page: a_b and a_{b} become a_{b}, and a backslash makes the next character plain. */
+const libraryText = (text) => text.replace(/\\(.)|([_^])(?:\{([^}]*)\}|(.))/gu, (_, plain, mark, braced, one) => plain ?? `${mark}{${braced ?? one}}`)
+  .replace(/(\d) (?=(?:[afpnµmkMG]?(?:m|N|Pa|J)|%)(?:[²\s,;.)]|$))/gu, `$1${NARROW}`);
+
+const libraryAxis = (axis, more) => ({label: libraryText(axis.label), unit: axis.unit || "1", ...more, ...(axis.logarithmic ? {log: true} : {})});
+
+/** A value with its unit, in words for the pointer and for screen readers. */
+const worded = (axis, value) => `${libraryText(axis.label)} ${quantity(value, axis.unit || "1", 4)}`;
+
+/** Draws a figure of the library with this name, if the file has its data. more: parts of the specification that addFigure() takes. */
+function libraryFigure(parent, point, name, more = {}) {
+  const found = point.figures?.find(({kind}) => kind === name);
+  if (!found) return null;
+  const panel = found.panels[0], image = panel.image;
+  if (!image && !panel.curves.some(({y}) => y.some(known))) return null;
+  const parts = image ? mapOf(panel) : curvesOf(panel);
+  const heading = libraryText(panel.title);
+  return addFigure(parent, {id: name, title: libraryText(found.title), caption: `${libraryText(found.caption)}${heading.includes(" = ") ? ` ${heading[0].toUpperCase()}${heading.slice(1)}.` : ""}${image ? MAP_NOTE(point.picture) : ""}`, ...parts, ...more});
+}
+
+/** Curves over a common or an own x, with bands or error bars, lines across the panel and shaded ranges. */
+function curvesOf({x, y, second_x: second, curves, lines, ranges}) {
+  const style = (curve, i) => { const [paint, symbol] = CURVE_STYLES[curve.color < 0 ? i % 7 : curve.color]; return {color: paint, symbol, dash: CURVE_DASHES[curve.style] ?? "solid"}; };
+  const nameOf = (curve) => libraryText(curve.name || y.label), key = (curve) => (curve.quantity || y.quantity || "y");
+  const common = curves.every((curve) => curve.x.length === curves[0].x.length && curve.x.every((v, k) => v === curves[0].x[k]));
+  const twice = curves.some((curve, i) => curves.findIndex((other) => key(other) === key(curve)) !== i);
+  const keyOf = (curve) => (twice ? `${plainText(nameOf(curve)).replace(/[^A-Za-z0-9]+/g, "_")}_${key(curve)}` : key(curve)), unit = y.unit || "1";
+  const text = (curve) => curve.x.map((v, k) => plotText(`${nameOf(curve)}: ${quantity(curve.y[k], unit, 4)}`) + (known(curve.low[k]) ? `<br>${interval({low: curve.low[k], high: curve.high[k]}, unit)}` : "")
+    + `<br>${plotText(worded(x, v))}` + (second ? `<br>${plotText(worded(second, v * second.factor))}` : ""));
+  const positive = (letter) => curves.every((curve) => curve[letter].every((v) => !known(v) || v > 0));
+  const span = (curve) => { const there = curve.y.filter(known); return `${plainText(nameOf(curve))} from ${quantity(there[0], unit, 3)} to ${quantity(there.at(-1), unit, 3)}`; };
+  return {
+    axes: {x: libraryAxis(x, {log: false, fixed: !positive("x")}), y: libraryAxis(y, {log: false, fixed: !positive("y")})},
+    alt: () => `${plainText(libraryText(y.label))} over ${plainText(libraryText(x.label))}: ${curves.filter((curve) => curve.y.some(known)).map(span).join("; ")}${lines.map((line) => `; ${plainText(libraryText(line.name))} at ${quantity(line.at, (line.vertical ? x : y).unit || "1", 3)}`).join("")}.`,
+    columns: () => (common ? [{label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves[0].x}, ...curves.flatMap((curve) => estimateColumns(nameOf(curve), keyOf(curve), unit, {mean: curve.y, low: curve.low, high: curve.high}))]
+      : [{label: "curve", key: "curve", unit: "1", values: curves.flatMap((curve, i) => curve.x.map(() => i + 1))}, {label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves.flatMap((curve) => curve.x)}, {label: libraryText(y.label), key: y.quantity || "y", unit, values: curves.flatMap((curve) => curve.y)}]),
+    plot: () => ({
+      series: curves.flatMap((curve, i) => {
+        const drawn = band(nameOf(curve), curve.x, {mean: curve.y, ...(curve.style === "points" ? {} : {low: curve.low, high: curve.high})}, style(curve, i), {text: text(curve), markers: /points/.test(curve.style)});
+        if (curve.style === "points") Object.assign(drawn.at(-1), {mode: "markers", error_y: {type: "data", symmetric: false, array: curve.y.map((v, k) => (known(curve.high[k]) ? curve.high[k] - v : 0)), arrayminus: curve.y.map((v, k) => (known(curve.low[k]) ? v - curve.low[k] : 0)), color: color(style(curve, i).color), thickness: 1.5}});
+        return drawn;
+      }),
+      shapes: [...ranges.map(({low, high, vertical}) => ({type: "rect", ...(vertical ? {x0: low, x1: high, y0: 0, y1: 1, yref: "paper"} : {y0: low, y1: high, x0: 0, x1: 1, xref: "paper"}), fillcolor: faint("vermilion", 0.1), line: {width: 0}, layer: "below"})),
+        ...lines.map(({at, vertical}) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: {color: color("muted"), width: 1.5, dash: "dash"}}))],
+      annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12},
+        ...(vertical ? {x: at ?? (low + high) / 2, y: 1, yref: "paper", yanchor: "top"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
+      axes: y.low === undefined ? {} : {yaxis: {rangemode: "tozero"}},
+    }),
+  };
+}
+
+/** A map of a quantity over the surface. */
+function mapOf({x, y, image}) {
+  const {scale} = image, values = decoded(image.values, Float32Array), seen = values.filter(Number.isFinite), at = quantiles(seen), unit = scale.unit || "1";
+  const place = {x: image.x, y: image.y}, [least, most] = [scale.low ?? (at(0) < 0 ? at(0.001) : 0), scale.high ?? at(at(0) < 0 ? 0.999 : 0.99)], shown = scaleFor([least, most], unit), label = libraryText(scale.label);
+  const shares = [0, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1], map = {nx: image.x.length, ny: image.y.length};
+  const axis = ({label: text, unit: of}, more, positions) => ({label: libraryText(text), unit: of || "1", fixed: true, values: () => positions, layout: {constrain: "domain", showgrid: false, ...more}});
+  return {
+    height: mapHeight(), axes: {x: axis(x, {}, place.x), y: axis(y, {scaleanchor: "x", constraintoward: "top"}, place.y)},
+    alt: () => `Map of the ${plainText(label)}: from ${quantity(at(0), unit, 3)} to ${quantity(at(1), unit, 3)}, half of the values below ${quantity(at(0.5), unit, 3)}.`,
+    columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label, key: scale.quantity, unit, values: shares.map((s) => Number(at(s).toPrecision(7))), digits: 3}],
+    csv: () => mapColumns(map, place, scale.quantity, unit, Array.from(values, (v) => (Number.isFinite(v) ? Number(v.toPrecision(7)) : null))),
+    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(values, map.nx, map.ny, (v) => (Number.isFinite(v) ? v * shown.factor : null)), colorscale: PALETTES[image.palette], zmin: least * shown.factor, zmax: most * shown.factor, hoverongaps: false,
+      colorbar: {title: {text: `${plotText(label)} (${shown.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
+      hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>%{z:.4~g} ${shown.label}<extra></extra>`}], layout: () => ({plot_bgcolor: color("sunken")})}),
+  };
+}
+
 /** Decodes the numbers of a map from base64. */
 function decoded(text, Type) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));

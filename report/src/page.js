@@ -13,6 +13,7 @@ function section(parent, id, title, intro, build) {
   return element;
 }
 
+const converged = (point) => point.figures?.some(({kind}) => kind === "convergence");
 const absent = (what) => h("p", {class: "absent"}, `This results file does not contain ${what}; a study by a newer salebra does.`);
 
 const finding = (title, value, details, doubt) => h("div", {class: doubt ? "finding doubt" : "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), details.filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))));
@@ -164,7 +165,7 @@ function heading(point) {
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
-  const sections = {conclusion: "Results", ...(point.assumptions ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  const sections = {conclusion: "Results", ...(point.assumptions ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(converged(point) ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
   document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
@@ -188,10 +189,10 @@ function show(index) {
     section(main, "explorer", "Another motion", "Enter a motion to see its loss in this contact. The page computes it from the mean curve of the study, by the formulas of the program.", (body) => explorer(body, point));
   section(main, "surface", "The surface", null, (body) => {
     if (point.picture) {
-      heightMap(body, point);
+      libraryFigure(body, point, "height-map");
       profileFigure(body, point);
-      spectrumFigure(body, point);
-      distributionFigure(body, point);
+      libraryFigure(body, point, "spectrum");
+      libraryFigure(body, point, "distribution");
     } else {
       body.append(absent("a map, the spectrum and the height distribution of its surface"));
     }
@@ -200,17 +201,16 @@ function show(index) {
   section(main, "law", "Force against mean gap", null, (body) => {
     if (!point.curve?.mean_gap?.bem) return void body.append(absent("the force–gap curve of boundary elements"));
     forceGapFigure(body, point);
-    if (point.adhesion) adhesionFigure(body, point);
+    libraryFigure(body, point, "adhesion-loop", {height: 420});
     localLengthFigure(body, point);
   });
   section(main, "contact", "Contact", null, (body) => {
-    if (point.picture?.gap) {
-      pressureMap(body, point);
-      gapMap(body, point);
-    }
+    libraryFigure(body, point, "pressure-map");
+    libraryFigure(body, point, "gap-map");
     if (point.picture?.first_load) contactMap(body, point);
     else body.append(absent("a contact map"));
-    spotsFigure(body, point);
+    libraryFigure(body, point, "spots");
+    libraryFigure(body, point, "spot-areas");
   });
   section(main, "models", "Models side by side", "Boundary elements and Greenwood–Williamson models on the same surfaces, and theories in closed form.", (body, element) => {
     const summary = modelTable(point);
@@ -222,7 +222,7 @@ function show(index) {
     dampingFigure(body, point);
     dampingRatioFigure(body, point);
   });
-  if (point.convergence) section(main, "ensemble", "Number of surfaces", null, (body) => convergenceFigure(body, point));
+  if (converged(point)) section(main, "ensemble", "Number of surfaces", null, (body) => libraryFigure(body, point, "convergence", {height: 300}));
   symbolsAndCitation(main);
   settings(main, point);
 }

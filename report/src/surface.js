@@ -31,70 +31,6 @@ function quantiles(values) {
   return (share) => sorted[Math.min(sorted.length - 1, Math.round(share * (sorted.length - 1)))];
 }
 
-function heightMap(parent, point) {
-  const picture = point.picture, place = mapAxes(picture);
-  const heights = decoded(picture.heights, Float32Array);
-  const at = quantiles(heights), shares = [0, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1];
-  const scale = scaleFor([at(0), at(1)], "m");
-  const z = matrix(heights, picture.nx, picture.ny, (v) => v * scale.factor);
-  const which = point.surface?.realisations > 1 ? "the first surface" : "the surface";
-  addFigure(parent, {
-    id: "height-map", title: "Heights", axes: place.axes, height: mapHeight(),
-    alt: () => `Map of the heights of ${which}, ${quantity(point.surface?.size_x, "m")} by ${quantity(point.surface?.size_y, "m")}: from ${quantity(at(0), "m", 3)} to ${quantity(at(1), "m", 3)} about the mean, half of the points between ${quantity(at(0.25), "m", 3)} and ${quantity(at(0.75), "m", 3)}.`,
-    caption: `Height of ${which} above its mean; hills are bright. One point in a thousand is above the colour scale, up to ${quantity(at(1), "m", 3)}, and one in a thousand below it, down to ${quantity(at(0), "m", 3)}.${MAP_NOTE(picture)}`,
-    columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: "height", key: "height", unit: "m", values: shares.map((s) => Number(at(s).toPrecision(7))), digits: 3}],
-    csv: () => mapColumns(picture, place, "height", "m", Array.from(heights, (v) => Number(v.toPrecision(7)))),
-    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z, colorscale: "Viridis", zmin: at(0.001) * scale.factor, zmax: at(0.999) * scale.factor,
-      colorbar: {title: {text: `height (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
-      hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>height %{z:.4~g} ${scale.label}<extra></extra>`}]}),
-  });
-}
-
-function spectrumFigure(parent, point) {
-  const picture = point.picture;
-  const hurst = known(picture.hurst)
-    ? `A power law fitted to this spectrum has ‹H› = ${number(picture.hurst, 3)} (95 %: ${number(picture.hurst_low, 3)} … ${number(picture.hurst_high, 3)}).`
-    : "The spectrum shows no self-affine range.";
-  const law = picture.law === "asked for" ? "requested law" : "fitted power law, ‹C› ∝ ‹q›^{−2(1+H)}";
-  addFigure(parent, {
-    id: "spectrum", title: "Power spectral density",
-    alt: () => `Power spectral density against wave number, both logarithmic, from ${number(Math.min(...picture.wavenumber), 3)} to ${number(Math.max(...picture.wavenumber), 3)} rad/m. ${plainText(hurst)}`,
-    caption: `‹C›(‹q›), averaged over rings of wave vectors; its integral over the plane of wave vectors is ‹h›_{rms}². ${hurst} Wavelengths are 2π/‹q›.`,
-    axes: {x: {label: "wave number ‹q›", short: "‹q›", unit: "rad/m", log: true}, y: {label: "‹C›", unit: "m^4", log: true}},
-    columns: () => [{label: "wave number", key: "wavenumber", unit: "rad/m", values: picture.wavenumber}, {label: "‹C›", key: "psd", unit: "m^4", values: picture.psd},
-      {label: picture.law === "asked for" ? "requested ‹C›" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_psd}],
-    plot: () => {
-      // Beyond the shortest wave the spectrum is only round-off.
-      const seen = picture.psd.map((_, i) => i).filter((i) => picture.psd[i] > Math.max(...picture.psd) * 1e-13);
-      return {series: [
-        {label: "this surface", x: seen.map((i) => picture.wavenumber[i]), y: seen.map((i) => picture.psd[i]), mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 5, color: color("blue")},
-          text: seen.map((i) => `<i>q</i> = ${number(picture.wavenumber[i], 3)} rad/m, wavelength ${quantity(2 * Math.PI / picture.wavenumber[i], "m", 3)}<br><i>C</i> = ${number(picture.psd[i], 3)} m⁴`)},
-        ...(picture.law ? [{label: law, x: picture.wavenumber.filter((_, i) => known(picture.law_psd[i])), y: picture.law_psd.filter(known), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}] : [])]};
-    },
-  });
-}
-
-function distributionFigure(parent, point) {
-  const picture = point.picture;
-  if (!picture.height?.length) return;
-  const width = picture.height.length > 1 ? picture.height[1] - picture.height[0] : 1;
-  const moment = (n) => picture.height.reduce((sum, z, i) => sum + z ** n * picture.height_density[i] * width, 0);
-  const rms = Math.sqrt(moment(2));
-  const gauss = picture.height.map((z) => Math.exp(-((z / rms) ** 2) / 2) / (rms * Math.sqrt(2 * Math.PI)));
-  addFigure(parent, {
-    id: "distribution", title: "Distribution of heights",
-    alt: () => `Histogram of the heights, compared with a Gaussian of the same rms height, ${quantity(rms, "m", 3)}.`,
-    caption: "Density of the points over their height, compared with a Gaussian of the same rms height. Only the highest points make contact, so the right end matters most; a logarithmic axis shows it best.",
-    axes: {x: {label: "height above the mean", unit: "m", fixed: true}, y: {label: "density", unit: "1/m", log: false}},
-    columns: () => [{label: "height", key: "height", unit: "m", values: picture.height}, {label: "density", key: "density", unit: "1/m", values: picture.height_density}, {label: "Gaussian", key: "gaussian", unit: "1/m", values: gauss}],
-    plot: ({state}) => ({series: [
-      {label: "this surface", x: picture.height, y: picture.height_density, mode: "lines", line: {color: color("blue"), width: 2, shape: "hvh"},
-        text: picture.height.map((z, i) => `height ${quantity(z, "m", 3)} = ${number(z / rms, 3)} <i>h</i><sub>rms</sub><br>${number(100 * picture.height_density[i] * width, 3)} % of the points in this bin`)},
-      {label: "Gaussian", x: picture.height, y: gauss, mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}],
-    axes: state.y === "log" ? {yaxis: {range: undefined}} : {yaxis: {rangemode: "tozero"}}}),
-  });
-}
-
 // The load of the cards, the profile, the contact map and the explorer: chosen by the reader, or else that of the maps in the file, or else the middle one.
 let chosenLoad = null;
 const onLoad = [];  // functions to call when it changes
@@ -118,7 +54,7 @@ const ofSurface = (point) => (point.surface?.realisations > 1 ? " of the first s
 /** Heights along the line through the middle, and the points on it that touch at the chosen load. */
 function profileFigure(parent, point) {
   const picture = point.picture, place = mapAxes(picture), row = Math.floor(picture.ny / 2);
-  const heights = decoded(picture.heights, Float32Array);
+  const heights = decoded(point.figures.find(({kind}) => kind === "height-map").panels[0].image.values, Float32Array);
   const line = place.x.map((_, ix) => Number(heights[ix * picture.ny + row].toPrecision(7)));
   const loads = picture.first_load ? decoded(picture.first_load, Int16Array) : null;
   const low = Math.min(...line), high = Math.max(...line);
@@ -177,53 +113,5 @@ function contactMap(parent, point) {
         hovertemplate: "<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>touches from %{customdata} on<extra></extra>"}],
       layout: () => ({plot_bgcolor: color("sunken")})};
     },
-  });
-}
-
-/** A map of "contact_pressure" or "gap" at the load that the file stores; blank where the value is 0. */
-function stateMap(parent, point, {key, id, title, unit, clip, colorscale, blank, caption}) {
-  const picture = point.picture, place = mapAxes(picture), step = picture[`max_${key}`] / 32767;
-  const values = Array.from(decoded(picture[key], Int16Array), (v) => (key === "gap" || v > 0 ? v * step : null));
-  const seen = values.filter(known), at = quantiles(seen), shares = [0, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1];
-  const scale = scaleFor([0, at(clip)], unit), load = quantity(point.pressure[picture.mapped_load], "Pa", 3);
-  addFigure(parent, {
-    id, title: `${title} at ${load}`, axes: place.axes, height: mapHeight(),
-    alt: () => `Map of the ${title.toLowerCase()} at ${load}: half of the values are below ${quantity(at(0.5), unit, 3)}, the largest is ${quantity(at(1), unit, 3)}.`,
-    caption: `${caption(load)}${MAP_NOTE(picture)}`,
-    columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: title.toLowerCase(), key, unit, values: shares.map((s) => Number(at(s).toPrecision(4))), digits: 3}],
-    csv: () => mapColumns(picture, place, key, unit, values.map((v) => (v === null ? null : Number(v.toPrecision(4))))),
-    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(values, picture.nx, picture.ny, (v) => (v > 0 ? v * scale.factor : null)), colorscale,
-      zmin: 0, zmax: at(clip) * scale.factor, hoverongaps: false,
-      colorbar: {title: {text: `${title.toLowerCase()} (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
-      hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>%{z:.4~g} ${scale.label}<extra></extra>`}],
-    layout: () => ({plot_bgcolor: blank ?? color("sunken")})}),
-  });
-}
-
-function pressureMap(parent, point) {
-  stateMap(parent, point, {key: "contact_pressure", id: "pressure-map", title: "Contact pressure", unit: "Pa", clip: 0.99, colorscale: "Viridis",
-    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, the only load stored in the file, by boundary elements; points without contact are blank. The highest pressures depend on the size of the cells.`});
-}
-
-function gapMap(parent, point) {
-  stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: [[0, "#08306b"], [0.5, "#4292c6"], [1, "#f2f8ff"]], blank: "#8d8579",
-    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, the only load stored in the file, by boundary elements. Points in contact are grey; dark blue is a narrow gap, light blue a wide one.`});
-}
-
-/** Number and size of the contact spots. */
-function spotsFigure(parent, point) {
-  const spots = point.spots ?? {}, count = spots.spot_count;
-  if (!count?.mean.some(known)) return;
-  const sizes = [["mean_spot_area", "mean", {color: "green", symbol: "diamond", dash: "solid"}], ["max_spot_area", "largest", {color: "vermilion", symbol: "square", dash: "solid"}]].filter(([key]) => spots[key]?.mean.some(known));
-  const last = point.pressure.length - 1;
-  addFigure(parent, {
-    id: "spots", title: "Contact spots", height: mapHeight(),
-    alt: () => `Number of contact spots and their areas against pressure: ${number(count.mean[0], 3)} spots at ${quantity(point.pressure[0], "Pa", 3)}, at most ${number(Math.max(...count.mean.filter(known)), 3)}, ${number(count.mean[last], 3)} at ${quantity(point.pressure[last], "Pa", 3)}.`,
-    caption: "Contact spots by boundary elements; a spot consists of neighbouring points in contact. The upper panel shows the number of spots, the lower panel their areas. Statistical laws need many spots.",
-    axes: {x: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: true}, y: {label: "spots", unit: "1", log: true, layout: {domain: [0.55, 1]}}, y2: {label: "area", unit: "m^2", log: true, layout: {domain: [0, 0.45]}}},
-    columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, ...estimateColumns("spots", "spot_count", "1", count), ...sizes.flatMap(([key, label]) => estimateColumns(`${label} area`, key, "m^2", spots[key]))],
-    plot: () => ({axes: {xaxis: {anchor: "y2"}}, series: [
-      ...band("number of spots", point.pressure, count, {color: "blue", symbol: "circle", dash: "solid"}, {text: count.mean.map((n, i) => `${number(n, 3)} spots at ${quantity(point.pressure[i], "Pa", 3)}`)}),
-      ...sizes.flatMap(([key, label, style]) => band(`${label} area of a spot`, point.pressure, spots[key], style, {both: {yaxis: "y2"}, text: spots[key].mean.map((a, i) => `${label} area of a spot ${quantity(a, "m^2", 3)}<br>at ${quantity(point.pressure[i], "Pa", 3)}`)}))]}),
   });
 }

@@ -2,6 +2,7 @@
 // JSON of a figure, from its description, and text without markup.
 #include <salebra/figures/figure.hpp>
 
+#include "figure_object.hpp"
 #include "results/columns.hpp"
 
 namespace salebra::figures {
@@ -50,6 +51,8 @@ std::string plain_text(std::string_view text) {
   return out;
 }
 
-std::string figure_json(const Figure& figure) { return json_of_value(figure).dump(2) + "\n"; }
+Json figure_object(const Figure& figure) { return json_of_value(figure); }
+
+std::string figure_json(const Figure& figure) { return figure_object(figure).dump(2) + "\n"; }
 
 }  // namespace salebra::figures

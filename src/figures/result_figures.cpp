@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/slider.hpp>
@@ -35,6 +36,21 @@ Panel picture_panel(const SurfacePicture& picture, const Axis& scale, const Valu
                          .values = std::move(values),
                          .scale = scale},
           .equal_scales = true};
+}
+
+/// The Gaussian with the rms height of the distribution; its mean is 0, that of the heights.
+Curve gaussian_of(const SurfacePicture& picture) {
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < picture.height.size(); ++i) {
+    sum += picture.height_density[i];
+    squares += picture.height_density[i] * picture.height[i] * picture.height[i];
+  }
+  const double rms = std::sqrt(squares / sum);
+  Curve curve{.name = "Gaussian", .x = picture.height, .style = Style::dashed};
+  for (const double height : picture.height)
+    curve.y.push_back(std::exp(-height * height / (2 * rms * rms)) /
+                      (rms * std::sqrt(2 * std::numbers::pi)));
+  return curve;
 }
 
 }  // namespace
@@ -108,8 +124,12 @@ Figure figure_of(const SurfacePicture& picture, const std::vector<double>& press
       [&](std::size_t k) {
         return picture.contact_pressure[k] > 0 ? double(picture.contact_pressure[k]) : nothing;
       });
-  map(axis_of("gap", false, "gap" + at), picture.gap,
-      [&](std::size_t k) { return double(picture.gap[k]); });
+  map(axis_of("gap", false, "gap" + at), picture.gap, [&](std::size_t k) {
+    // In contact the gap is round-off.
+    return k < picture.contact_pressure.size() && picture.contact_pressure[k] > 0
+               ? nothing
+               : double(picture.gap[k]);
+  });
 
   Panel spectrum{
       .title = "Hurst exponent H = " + interval_text(picture.hurst, picture.hurst_low,
@@ -122,6 +142,10 @@ Figure figure_of(const SurfacePicture& picture, const std::vector<double>& press
                       .x = picture.wavenumber,
                       .y = picture.psd,
                       .style = Style::line_and_points}};
+  // Beyond the shortest wave of a filtered surface the spectrum is round-off.
+  if (!picture.psd.empty())
+    for (double& density : spectrum.curves[0].y)
+      if (density < 1e-13 * std::ranges::max(picture.psd)) density = nothing;
   if (!picture.law.empty())
     spectrum.curves.push_back({.name = "self-affine law",
                                .x = picture.wavenumber,
@@ -129,10 +153,12 @@ Figure figure_of(const SurfacePicture& picture, const std::vector<double>& press
                                .style = Style::dashed});
   figure.panels.push_back(std::move(spectrum));
   if (!picture.height.empty())
-    figure.panels.push_back({.title = "distribution of heights",
-                             .x = axis_of("height", false, "height"),
-                             .y = axis_of("height_density", false, "density"),
-                             .curves = {{.x = picture.height, .y = picture.height_density}}});
+    figure.panels.push_back(
+        {.title = "distribution of heights",
+         .x = axis_of("height", false, "height"),
+         .y = axis_of("height_density", false, "density"),
+         .curves = {{.name = "this surface", .x = picture.height, .y = picture.height_density},
+                    gaussian_of(picture)}});
   return figure;
 }
 

@@ -16,15 +16,14 @@
 #include <string>
 #include <vector>
 
+#include "map_bytes.hpp"
+#include "page_figures.hpp"
 #include "study/estimate.hpp"
 
 namespace salebra::detail {
 namespace {
 
 using Names = std::vector<std::string>;
-
-static_assert(std::endian::native == std::endian::little,
-              "maps are embedded as they are in memory");
 
 /// Rounds to seven digits: more than a figure shows, and half as long as all digits.
 Json number(double value) {
@@ -41,32 +40,11 @@ Json list(std::span<const double> values) {
   return json;
 }
 
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      group = group << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (std::size_t j = 0; j < 4; ++j)
-      text += j <= count ? digits[group >> (18 - 6 * j) & 63] : '=';
-  }
-  return text;
-}
-
-template <class T>
-std::string base64(const std::vector<T>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
-
 /// Number of surfaces whose curves are drawn singly; more would only blur the figure.
 constexpr std::size_t max_single_curves = 24;
 /// Number of points of all surface maps of a page. With several points of the parameter grid, each
 /// map has its share.
-constexpr double map_budget = 320. * 320.;
+constexpr double map_budget = 256. * 256.;
 
 /// Reads the groups of one study, or of one point of its parameter grid, and makes their part of
 /// the payload.
@@ -86,6 +64,7 @@ class Point {
       json["models"].push_back({{"name", model}, {"title", title(model)}});
     add(json, "surface", surface());
     add(json, "picture", picture(map_side));
+    add(json, "figures", page_figures(file_, where_, pressures_, map_side));
     add(json, "curve",
         by_model("curve/ensemble_", {"mean_gap", "separation", "contact_area_fraction",
                                      "normal_stiffness", "tangential_stiffness"}));
@@ -105,7 +84,9 @@ class Point {
       if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
     add(json, "assumptions", assumptions());
-    add(json, "spots", spots());
+    if (has("spots/ensemble_corrected_area_fraction_mean"))
+      json["edge_corrected_area_fraction"] =
+          estimate("spots/ensemble_corrected_area_fraction", 0, pressures_.size());
     const std::string work = without_slip("work_per_cycle");
     Json over_bem =
         by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
@@ -114,11 +95,6 @@ class Point {
       over_bem["work_per_cycle"] = std::move(ratios);
     }
     add(json, "over_bem", std::move(over_bem));
-    if (const auto surfaces = column("convergence/surfaces")) {
-      json["convergence"] =
-          estimate("convergence/decay_length_over_rms_height", 0, surfaces->size());
-      json["convergence"]["surfaces"] = list(*surfaces);
-    }
     return json;
   }
 
@@ -252,17 +228,8 @@ class Point {
     if (!has("picture/heights")) return json;
     const std::vector<double> x = required("picture/x"), y = required("picture/y");
     const auto rows = Index(x.size()), columns = Index(y.size());
-    const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
     const std::vector<double> loads = part("picture/first_load", 0, x.size() * y.size());
-    const Index stride = std::max<Index>(1, (std::max(rows, columns) + map_side - 1) / map_side);
-    // Takes of(value) at every stride-th point along both axes, and returns the result in base64.
-    const auto reduced = [&](const std::vector<double>& values, const auto& of) {
-      std::vector<std::remove_cvref_t<decltype(of(values.front()))>> map;
-      for (Index i = 0; i < rows; i += stride)
-        for (Index j = 0; j < columns; j += stride)
-          map.push_back(of(values[std::size_t(i * columns + j)]));
-      return base64(map);
-    };
+    const Index stride = stride_of(rows, columns, map_side);
     // Clamps to 16 bits, because a damaged file may hold NaN or larger numbers.
     const auto whole = [](double value) {
       return std::int16_t(std::isnan(value) ? 0 : std::clamp(value, -32768., 32767.));
@@ -273,28 +240,10 @@ class Point {
     json["step_y"] = number(columns > 1 ? double(stride) * (y[1] - y[0]) : 0);
     json["stride"] =
         double(stride) * file_.number_attribute(where_ + "picture", "stride").value_or(1);
-    json["heights"] = reduced(heights, [](double value) { return float(value); });
-    json["first_load"] = reduced(loads, whole);
-    if (const auto load = file_.number_attribute(where_ + "picture", "mapped_load")) {
+    json["first_load"] = base64(every(stride, rows, columns, loads, whole));
+    if (const auto load = file_.number_attribute(where_ + "picture", "mapped_load"))
       json["mapped_load"] = *load;
-      for (const std::string name : {"contact_pressure", "gap"}) {
-        // Stores 16-bit multiples of max/32767: finer than a screen shows, and half the bytes of a
-        // float.
-        const std::vector<double> values = part("picture/" + name, 0, x.size() * y.size());
-        const double most = std::ranges::max(values);
-        json["max_" + name] = number(most);
-        json[name] = reduced(values, [&](double value) {
-          return whole(most > 0 ? std::round(value / most * 32767) : 0);
-        });
-      }
-    }
-    for (const char* name : {"origin", "law"})
-      json[name] = file_.text_attribute(where_ + "picture", name).value_or("");
-    for (const char* name : {"hurst", "hurst_low", "hurst_high"})
-      if (const auto value = file_.number_attribute(where_ + "picture", name))
-        json[name] = number(*value);
-    for (const char* name : {"wavenumber", "psd", "law_psd", "height", "height_density"})
-      if (const auto values = column(std::string("picture/") + name)) json[name] = list(*values);
+    json["origin"] = file_.text_attribute(where_ + "picture", "origin").value_or("");
     return json;
   }
 
@@ -426,15 +375,6 @@ class Point {
                     {"verdict", list(required(location + "_verdict"))}};
       if (has(location + "_onset")) assumption["onset"] = list(required(location + "_onset"));
     }
-    return json;
-  }
-
-  Json spots() const {
-    Json json;
-    for (const char* name :
-         {"spot_count", "corrected_area_fraction", "max_spot_area", "mean_spot_area"})
-      if (has(std::string("spots/ensemble_") + name + "_mean"))
-        json[name] = estimate(std::string("spots/ensemble_") + name, 0, pressures_.size());
     return json;
   }
 

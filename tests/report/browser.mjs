@@ -150,7 +150,7 @@ function parsed(text) {
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
 }
 
-const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
+const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "spot-areas", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
   "damping-curve", "damping-deviation", "damping-models", "convergence"];
 
 // Only what is in sight is drawn at first; paper gets all of it.

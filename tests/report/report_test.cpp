@@ -9,6 +9,7 @@
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "scratch.hpp"
 #include "skipped.hpp"
@@ -114,7 +115,51 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
     if (!value.is_null()) CHECK(value.get<double>() == Approx(curve[k].mean).epsilon(1e-6));
   }
   // A height has four bytes, and base64 has four characters for three bytes.
-  CHECK(point["picture"]["heights"].get<std::string>().size() == (64 * 64 * 4 + 2) / 3 * 4);
+  const auto figure = [&](const char* kind) {
+    for (const Json& one : point["figures"])
+      if (one["kind"] == kind) return one["panels"][0];
+    return Json();
+  };
+  CHECK(figure("height-map")["image"]["values"].get<std::string>().size() ==
+        (64 * 64 * 4 + 2) / 3 * 4);
+  // The figures of the library have the numbers of the file.
+  const ResultReader file(scratch / "study.h5");
+  const auto same = [](const Json& drawn, const std::vector<double>& stored) {
+    REQUIRE(drawn.size() == stored.size());
+    for (std::size_t i = 0; i < stored.size(); ++i)
+      CHECK((drawn[i].is_null() ? std::isnan(stored[i]) : drawn[i].get<double>() == stored[i]));
+  };
+  for (const auto& [kind, curve, path] :
+       {std::tuple("spectrum", 1, "picture/law_psd"),
+        {"distribution", 0, "picture/height_density"},
+        {"spots", 0, "spots/ensemble_spot_count_mean"},
+        {"spot-areas", 0, "spots/ensemble_mean_spot_area_mean"},
+        {"spot-areas", 1, "spots/ensemble_max_spot_area_mean"},
+        {"convergence", 0, "convergence/decay_length_over_rms_height_mean"}})
+    same(figure(kind)["curves"][curve]["y"], file.numbers(path));
+  // The spectrum leaves out what is only round-off, beyond the shortest wave of the study.
+  std::vector<double> psd = file.numbers("picture/psd");
+  const double floor = 1e-13 * std::ranges::max(psd);
+  CHECK(std::ranges::any_of(psd, [&](double density) { return density < floor; }));
+  for (double& density : psd)
+    if (density < floor) density = std::nan("");
+  same(figure("spectrum")["curves"][0]["y"], psd);
+  same(figure("spots")["curves"][0]["low"], file.numbers("spots/ensemble_spot_count_low"));
+  same(figure("spots")["curves"][0]["x"], result.pressures);
+  // The density of a Gaussian with the rms height of the distribution has its integral and its
+  // second moment; the bins end where heights do, which leaves out less than 5 %.
+  const Json gaussian = figure("distribution")["curves"][1], heights = gaussian["x"],
+             histogram = figure("distribution")["curves"][0]["y"];
+  double density = 0, squares = 0, drawn = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double height = heights[i].get<double>(),
+                 bin = heights[1].get<double>() - heights[0].get<double>();
+    density += gaussian["y"][i].get<double>() * bin;
+    squares += gaussian["y"][i].get<double>() * bin * height * height;
+    drawn += histogram[i].get<double>() * bin * height * height;
+  }
+  CHECK(density == Approx(1).epsilon(0.05));
+  CHECK(squares == Approx(drawn).epsilon(0.2));
   CHECK(point["samples"].size() == 3);
 }
 

@@ -28,7 +28,7 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
 /// It shows conclusion and warnings first, then the surface, force over mean gap with the fit and
 /// its residuals, all models, damping with bands, settings and provenance; every figure includes
 /// its numbers as a table and as CSV. The HTML file loads nothing from elsewhere: it contains
-/// plotly.js, the data and the maps (at most 320 × 320 points in total), less than 3 MB. If an older
+/// plotly.js, the data and the maps (at most 256 × 256 points in total), less than 3 MB. If an older
 /// results file lacks some data, the report says so. The HTML file appears complete or not at all.
 /// throws  InvalidInput for a file that is missing, damaged or contains no study, for direct
 ///         results of another normal amplitude, for direct results together with several points of
