@@ -181,7 +181,13 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
                slips ? arguments.steps : 1000,
                arguments.assumptions.friction_coefficient.value_or(ContactParameters::unknown),
                session.context());
-  session.plot(figures::figure_of(cycle.path, cycle.loss));
+  // The loss of a surface comes from its contacts; the law of its curve draws the loop only.
+  TrajectoryDamping loss = cycle.loss;
+  if (answer.contact.surface) {
+    loss.work_per_cycle = answer.results.front().work_per_cycle;
+    loss.error = answer.results.front().error;
+  }
+  session.plot(figures::figure_of(cycle.path, loss));
 }
 
 void lose(const DampingArguments& arguments, Session& session) {
@@ -204,6 +210,13 @@ void lose(const DampingArguments& arguments, Session& session) {
             "--surface", arguments.law.surface.file,
             "takes one motion, drag or equal-frequency; give several values of --pressure, or a "
             "--curve");
+  // The loop of a drag with slip takes as many normal cycles as its excursion.
+  if (session.has_plot() && values.empty() && !arguments.maps.given() && motions.size() == 1)
+    require_that(!(arguments.assumptions.friction_coefficient &&
+                   std::holds_alternative<Drag>(motions.front())),
+                 "--plot",
+                 "cannot draw the loop of a single drag with --friction-coefficient; leave the "
+                 "friction out, or give several values of a quantity");
   problem.contact = contact_of(arguments, session);
   const DampingSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.warnings);

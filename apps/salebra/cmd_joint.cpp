@@ -189,7 +189,7 @@ class Limits {
           values.push_back(same == one.columns.end() ? JointLoss::unknown : same->values[row]);
         }
         limits.push_back(limits_of(values));
-        if (extremes_ && column.name == "storage_stiffness") {
+        if (extremes_ && column.name == "storage_stiffness" && slips(limits.size() - 1)) {
           // Where the contact begins to slide, k' depends on the form of the law: other laws with
           // the same decay length have up to a tenth more than the exponential one.
           constexpr double form = 1.15;
@@ -222,6 +222,13 @@ class Limits {
   }
 
  private:
+  /// Whether slip takes more than a twentieth of the stiffness of the first joint in a motion; if it
+  /// does not, k' is K_t.
+  bool slips(std::size_t motion) const {
+    const JointSolution& first = solutions_.front();
+    return first.losses[motion].storage_stiffness < 0.95 * first.state.tangential_stiffness;
+  }
+
   EnsembleMean limits_of(const std::vector<double>& values) const {
     if (!extremes_) return prediction(values);
     const auto [low, high] = std::ranges::minmax(values);

@@ -137,6 +137,10 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   contact.body = shape.empty() ? file_of(arguments, session) : shape_of(arguments, shape);
   OscillatingBody& body = contact.body;
   body.boundary = parse_enum<Boundary>(arguments.boundary).value_or(body.boundary);
+  if (shape.empty() && arguments.boundary.empty() && body.boundary == Boundary::free)
+    session.inform(
+        "The surface does not repeat itself, so it is alone on a half-space; --boundary periodic "
+        "continues it, as contact and damping do.");
   const double modulus = contact.material.contact_modulus;
   const OperatingPoint point = point_of(arguments.point, body);
   if (point.control == ControlQuantity::pressure)

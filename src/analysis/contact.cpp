@@ -309,7 +309,10 @@ std::vector<ForceCurve> chosen_curves(const CurveContact& body) {
   const double* angle = std::get_if<double>(&body.direction);
   if (angle == nullptr)
     throw InvalidInput("direction", std::string(name_of(std::get<LayDirection>(body.direction))),
-                       "needs a surface; the curve " + there);
+                       known.empty() ? "needs a surface; the curve " + there
+                                     : fmt::format("needs a surface; the curve has {}; give one of "
+                                                   "these angles, or none for all of them",
+                                                   fmt::join(known, " and ")));
   const double asked = directions_of(body.direction, SurfaceLay{}).front();
   // Directions are written with six digits of the angle.
   std::erase_if(curves, [&](const ForceCurve& curve) {
@@ -342,7 +345,7 @@ Solutions solutions(SurfaceContact body, const Context& context) {
     warnings.push_back(*warning);
   const SurfaceLay lay = surface_lay(body.surface);
   const std::vector<double> directions = directions_of(body.direction, lay);
-  if (directions.size() == 1)
+  if (std::holds_alternative<double>(body.direction))
     std::ranges::move(
         warnings_of_lay(lay, 0,
                         "the tangential stiffness and the damping constant are those of motion " +

@@ -11,6 +11,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "base/memory.hpp"
@@ -537,8 +538,10 @@ SurfaceDamping refused_unless_nested(SurfaceDamping result) {
   return refused;
 }
 
+/// edges: whether the surface has plateaus, beside whose edges the interpolation of the heights
+/// between the cells decides.
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
-                         const SurfaceDampingOptions& options) {
+                         const SurfaceDampingOptions& options, bool edges) {
   SurfaceDamping result;
   result.hold = load.hold();
   result.direction = load.direction();
@@ -578,8 +581,9 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // The error by the cells is of second order: after halving the cells, a third of the change
   // remains on the finer grid and 4/3 on the coarser one. The loss of a wide oscillation changes so
-  // little that the interpolation of the heights between the cells decides: all of the change.
-  const double part = value.points < other.points ? 4.0 / 3 : load.is_wide() ? 1 : 1.0 / 3;
+  // little that the interpolation of the heights between the cells decides: all of the change. So it
+  // does beside the edges of plateaus, as on honed surfaces.
+  const double part = value.points < other.points ? 4.0 / 3 : load.is_wide() || edges ? 1 : 1.0 / 3;
   result.error_without_slip.cells = part * std::abs(value.work - other.work);
   const KrigedWork& other_described = no_slip ? other : other.with_slip;
   result.error.cells = part * std::abs(described.work - other_described.work);
@@ -782,9 +786,11 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
                                   ratios_of(curves[d], modulus_ratio_of(body)));
   }
 
+  constexpr double skew = 0.5;
+  const bool edges = std::abs(significant_skewness(surface)) > skew;
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
   const auto is_open = [&](const Load& load, int halving) {
-    const SurfaceDamping result = result_of(load, motion, options);
+    const SurfaceDamping result = result_of(load, motion, options, edges);
     const bool known = !std::isnan(result.work_per_cycle);
     const double work = known ? result.work_per_cycle : result.work_per_cycle_without_slip;
     const ErrorBudget& error = known ? result.error : result.error_without_slip;
@@ -809,7 +815,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   }
   std::vector<std::vector<SurfaceDamping>> results(curves.size());
   for (std::size_t d = 0; d < curves.size(); ++d)
-    for (const Load& load : loads[d]) results[d].push_back(result_of(load, motion, options));
+    for (const Load& load : loads[d]) results[d].push_back(result_of(load, motion, options, edges));
   if (!options.seam) return results;
   SurfaceDampingOptions without = options;
   without.hold = hold;

@@ -2,6 +2,7 @@
 // Self-affine law of the profiles of a surface along any direction, from its spectrum.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
@@ -93,11 +94,12 @@ detail::WaveMixing mixing_along(const Grid2D& grid, double direction) {
   return mixing;
 }
 
-/// The law along one direction, rad. shortest: wavelength below which no wave counts, m.
+/// The law along one direction. shortest: wavelength below which no wave counts, m.
 struct Along {
   SelfAffineFit fit;
-  /// Whether the law holds, without floor or attenuation, up to its own end or that of the grid.
-  bool to_the_end = false;
+  /// Wave number up to which the power is that of the law, rad/m; infinite if the law ends before
+  /// the grid does.
+  double unattenuated = 0;
 };
 
 Along fit_along(const PowerSpectrum& spectrum, double direction, double shortest) {
@@ -122,10 +124,13 @@ Along fit_along(const PowerSpectrum& spectrum, double direction, double shortest
   for (std::size_t k = law.begin; k < law.end; ++k) modes += bins[k].modes;
   const bool ends = law.q_short < 0.9 * end;
   const double last = bins[law.end - 1].wavenumber;
+  constexpr double most_attenuation = 0.1;  ///< g q² that is left out of account
   Along found{{{law.hurst, bins[law.begin].wavenumber, last, static_cast<Index>(2 * modes)},
                law.rolloff(),
                {}},
-              law.pure && (ends || last > 0.7 * end)};
+              ends       ? std::numeric_limits<double>::infinity()
+              : law.pure ? last
+                         : last * std::sqrt(std::min(1.0, most_attenuation / law.attenuation))};
   if (ends)
     found.fit.short_cutoff = {2 * pi / law.q_short, 2 * pi / law.q_short_high,
                               2 * pi / law.q_short_low};
@@ -144,9 +149,8 @@ DirectionalSelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, const Su
   DirectionalSelfAffineFit fit{across.fit, {}};
   if (!across.fit.hurst.found()) return fit;
   // A profile along the lay gets most of its power at q from waves with a component across the lay
-  // of up to twice `ratio`·q, which have to follow the law.
-  if (!across.to_the_end)
-    shortest = std::max(shortest, 2 * lay.ratio * 2 * pi / across.fit.hurst.wavenumber_max);
+  // of up to three times `ratio`·q, which have to follow the law.
+  shortest = std::max(shortest, 3 * lay.ratio * 2 * pi / across.unattenuated);
   fit.along = fit_along(spectrum, lay.angle, shortest).fit;
   // The end of the grid across the lay looks like an end of the profiles along it.
   const double visible = 2.2 * std::max(spectrum.grid.dx(), spectrum.grid.dy());

@@ -325,7 +325,13 @@ DirectionChoice direction_choice(std::string_view text, std::string_view field) 
   const bool number = text.find_first_of("0123456789") != std::string_view::npos;
   require(number, field, fmt::format("'{}'", printable(text)),
           "must be across, along, both, or an angle from the x axis with its unit, such as 30deg");
-  return parse_quantity(text, Dimension::angle, field);
+  const double angle = parse_quantity(text, Dimension::angle, field);
+  // 30 without a unit would be 30 rad.
+  require(angle == 0 ||
+              text.find_first_of("abcdefghijklmnopqrstuvwxyz") != std::string_view::npos ||
+              text.find("°") != std::string_view::npos,
+          field, fmt::format("'{}'", printable(text)), "needs a unit, such as 30deg or 0.5rad");
+  return angle;
 }
 
 std::vector<double> directions_of(const DirectionChoice& choice, const SurfaceLay& lay) {

@@ -256,6 +256,7 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     // Where less than a twentieth of the power is left, the shape of the attenuation decides, and no
     // instrument has exactly a Gaussian.
     if (!found.pure && best.at[attenuation] > strongest_attenuation) continue;
+    found.attenuation = best.at[attenuation];
     if (found.pure) {
       found.hurst.value = plain.at[hurst];
       found.hurst.low = std::min(found.hurst.low, found.hurst.value);

@@ -29,6 +29,7 @@ struct PowerLawRange {
   bool rolloff_seen = false;  ///< a likelihood-ratio test at 5 % rejects the law without a plateau
   double amplitude = 0;       ///< factor A of the density
   bool pure = false;          ///< neither floor nor attenuation is significant
+  double attenuation = 0;     ///< g q² at the last wave number of the range
   bool found() const { return end > begin; }
   IntervalEstimate rolloff() const;  ///< wavelength, m; NaN unless the roll-off is seen
 };

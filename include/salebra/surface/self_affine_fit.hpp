@@ -60,9 +60,10 @@ constexpr void describe(auto&& visit, std::type_identity<DirectionalSelfAffineFi
 /// the direction it has the same form for an elliptic spectrum, C(√(q² + s²q_⊥²)), as for an
 /// isotropic one. A strip of wave vectors counts as (2(ΣC)²/ΣC² − 1)/correlated_modes independent
 /// powers. The intervals of H and of the roll-off are those of likelihood-ratio tests at 5 %; the
-/// interval of the shortest wavelength is that of the strips, a fifth wide. Waves across the lay
-/// that an instrument does not show take power from profiles along it: unless the law across the lay
-/// holds up to its own end or that of the grid, the law along it ends where it would need them.
+/// interval of the shortest wavelength is that of the strips, a fifth wide. Profiles along
+/// the lay get their power from waves across it, three times `ratio` as short: unless the law across
+/// the lay ends within the grid, the law along it uses only waves whose share of these the grid and
+/// the instrument show.
 /// throws  InvalidInput for a spectrum without a window, and for a lay with unknown angle or ratio
 /// cost    0.1 to 0.5 s for the fits, and two passes over the modes. Collective
 DirectionalSelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, const SurfaceLay& lay,
