@@ -581,9 +581,12 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // The error by the cells is of second order: after halving the cells, a third of the change
   // remains on the finer grid and 4/3 on the coarser one. The loss of a wide oscillation changes so
-  // little that the interpolation of the heights between the cells decides: all of the change. So it
-  // does beside the edges of plateaus, as on honed surfaces.
-  const double part = value.points < other.points ? 4.0 / 3 : load.is_wide() || edges ? 1 : 1.0 / 3;
+  // little that the interpolation of the heights between the cells decides: all of the change. It does
+  // so, and not regularly, beside the edges of plateaus, as on honed surfaces: a third more.
+  const double part = value.points < other.points ? 4.0 / 3
+                      : edges                     ? 4.0 / 3
+                      : load.is_wide()            ? 1
+                                                  : 1.0 / 3;
   result.error_without_slip.cells = part * std::abs(value.work - other.work);
   const KrigedWork& other_described = no_slip ? other : other.with_slip;
   result.error.cells = part * std::abs(described.work - other_described.work);

@@ -151,7 +151,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// Noise: 1.8 standard deviations. Cells: the surface is interpolated on cells of half the size at
 /// the same pressure. Forces converge at second order in the cell size, so a third of the change of
 /// W is the error of the finer grid, and four thirds of it that of the coarser grid; on surfaces with
-/// a skewness beyond ±0.5, all of it, since the interpolation at the edges of plateaus decides. Intervals: the
+/// a skewness beyond ±0.5, four thirds of it, since the interpolation at the edges of plateaus decides. Intervals: the
 /// change of W from half as many intervals, on the given grid. Stiffness ratio: the change of W if
 /// ρ is linear in ln F. Solver: the effect on W of correcting each force for the gaps that remain
 /// in its contact. In a wide oscillation the noise comes from the scatter of K at the smallest indentation,
