@@ -23,6 +23,7 @@ from test_notebook import makers
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("agg")
 from matplotlib import pyplot  # noqa: E402
+from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.text import Text  # noqa: E402
 
 COLUMN, PAGE = 0.085, 0.17
@@ -65,8 +66,9 @@ def check(name: str, figure: Any, width: float | None) -> None:
     texts: list[Text] = []
     draw = Text.draw
     with mock.patch.object(Text, "draw", lambda self, renderer: (texts.append(self), draw(self, renderer))[1]):
-        drawn.canvas.draw()
+        FigureCanvasAgg(drawn).draw()
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text().strip() and text.get_visible()]
+    assert len(boxes) > 4 * len(figure.panels), name  # labels and numbers of two axes each
     paper = drawn.bbox.padded(1)
     for k, (text, box) in enumerate(boxes):
         assert paper.containsx(box.x0) and paper.containsx(box.x1) and paper.containsy(box.y0) and paper.containsy(box.y1), (name, width, text)
