@@ -167,7 +167,7 @@ void bind_data(nb::module_& m) {
   };
   described_class<Figure>(m, "Figure", "What is drawn of a result, as data in SI units.")
       .def("json", &figure_json,
-           "The figure as JSON, as `--plot FILE.json` of the program writes it.")
+           "The figure as JSON, as the program writes it.")
       .def(
           "plot",
           [ask](nb::handle_t<Figure> self, std::optional<double> width) {
