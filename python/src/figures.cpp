@@ -166,8 +166,7 @@ void bind_data(nb::module_& m) {
     return nb::module_::import_("salebra._plots").attr(function)(self, arguments...);
   };
   described_class<Figure>(m, "Figure", "What is drawn of a result, as data in SI units.")
-      .def("json", &figure_json,
-           "The figure as JSON, as the program writes it.")
+      .def("json", &figure_json, "The figure as JSON, as the program writes it.")
       .def(
           "plot",
           [ask](nb::handle_t<Figure> self, std::optional<double> width) {
