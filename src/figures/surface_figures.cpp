@@ -33,9 +33,9 @@ Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) 
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
-    // Leaves out densities that are only rounding errors beyond a cut-off; they would extend the
-    // axis by thirty decades.
-    if (!(radial.psd[k] > 1e-20 * strongest)) continue;
+    // Leaves out densities beyond a cut-off that are only rounding errors or the leakage of a
+    // window; they would extend the axis by twenty decades.
+    if (!(radial.psd[k] > 1e-13 * strongest)) continue;
     measured.x.push_back(radial.wavenumber[k]);
     measured.y.push_back(radial.psd[k]);
     // A mode and its mirror image are one number with two degrees of freedom.
@@ -107,9 +107,9 @@ Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
       .kind = "surface",
       .caption = fmt::format(
           "Heights of the surface ({} x {} points), its radial power spectral density with "
-          "the 95 % interval of each mean and the fitted power law, and the distribution "
-          "of the heights beside the Gaussian of the same mean and rms height.",
-          surface.grid.nx, surface.grid.ny)};
+          "the 95 % interval of each mean{}, and the distribution of the heights beside the "
+          "Gaussian of the same mean and rms height.",
+          surface.grid.nx, surface.grid.ny, of.hurst.found() ? " and the fitted power law" : "")};
   figure.panels.push_back(
       map_panel(surface.grid, surface.heights,
                 "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3),
