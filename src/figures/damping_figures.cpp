@@ -206,15 +206,16 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     "Energy lost in a cycle and damping constant, with their numerical errors, "
                     "without slip and by the closed form for small amplitudes.",
                 .columns = 3};
-  figure.panels = {
-      {.title = "Energy dissipated in a cycle",
-       .x = x,
-       .y = axis_of("work_per_cycle", false, "loss W"),
-       .legend = Legend::top_left},
-      {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}},
-      {.title = "Damping constant",
-       .x = x,
-       .y = axis_of("damping_constant", false, "damping constant γ")}};
+  figure.panels = {{.title = "Energy dissipated in a cycle",
+                    .x = x,
+                    .y = axis_of("work_per_cycle", false, "loss W"),
+                    .legend = Legend::top_left},
+                   {.title = "Small-amplitude form against W without slip",
+                    .x = x,
+                    .y = {.label = "deviation (%)"}},
+                   {.title = "Damping constant",
+                    .x = x,
+                    .y = axis_of("damping_constant", false, "damping constant γ")}};
   const std::size_t directions = results.size() / values.size();
   for (std::size_t d = 0; d < directions; ++d) {
     const DampingResult& first = results[d * values.size()];
@@ -226,7 +227,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     });
     const auto add = [&](Panel& panel, const char* name, const char* of, const auto& number,
                          const auto& error) {
-      Curve curve{.name = name + way, .quantity = of, .x = values};
+      const bool form =
+          std::string_view(name) == "small-amplitude form" && &panel != &figure.panels[1];
+      Curve curve{.name = form ? name : name + way, .quantity = of, .x = values};
       for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
         curve.y.push_back(number(results[k]));
         curve.low.push_back(curve.y.back() - error(results[k]));
@@ -246,14 +249,17 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       add(
           figure.panels[0], "W without slip", "work_per_cycle_without_slip",
           [](const DampingResult& one) { return one.work_per_cycle_without_slip; }, none);
-    add(
-        figure.panels[0], "small-amplitude form", "small_amplitude_work",
-        [](const DampingResult& one) { return one.small_amplitude_work; }, none);
-    figure.panels[0].curves.back().style = Style::dashed;
+    // The closed form is the same in all directions.
+    if (d + 1 == directions) {
+      add(
+          figure.panels[0], "small-amplitude form", "small_amplitude_work",
+          [](const DampingResult& one) { return one.small_amplitude_work; }, none);
+      figure.panels[0].curves.back().style = Style::dashed;
+    }
     add(
         figure.panels[1], "small-amplitude form", "",
         [](const DampingResult& one) {
-          return 100 * (one.small_amplitude_work / one.work_per_cycle - 1);
+          return 100 * (one.small_amplitude_work / one.work_per_cycle_without_slip - 1);
         },
         none);
     add(
@@ -265,11 +271,13 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
           figure.panels[2], "γ without slip", "damping_constant_without_slip",
           [](const DampingResult& one) { return one.damping_constant_without_slip; },
           [](const DampingResult& one) { return one.damping_constant_without_slip_error(); });
-    add(
-        figure.panels[2], "small-amplitude form", "",
-        [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
-        none);
-    if (!figure.panels[2].curves.empty()) figure.panels[2].curves.back().style = Style::dashed;
+    if (d + 1 == directions) {
+      add(
+          figure.panels[2], "small-amplitude form", "",
+          [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
+          none);
+      if (!figure.panels[2].curves.empty()) figure.panels[2].curves.back().style = Style::dashed;
+    }
   }
   std::erase_if(figure.panels, [](const Panel& panel) { return panel.curves.empty(); });
   for (Panel& panel : figure.panels) {
