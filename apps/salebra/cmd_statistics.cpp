@@ -226,7 +226,9 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
     spectrum = power_spectrum(complete, window);
     lay = surface_lay(complete);
     // A lay makes the law that of profiles, whose spectrum needs a window on every surface.
-    const Window of_law = lay.found() && complete.periodic ? Window::hann : window;
+    const bool windowless =
+        window == Window::none || (window == Window::automatic && complete.periodic);
+    const Window of_law = lay.found() && complete.periodic && windowless ? Window::hann : window;
     std::optional<PowerSpectrum> other;
     if (surfaces.measured || of_law != window)
       other = power_spectrum(!surfaces.measured ? complete

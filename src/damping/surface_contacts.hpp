@@ -18,6 +18,7 @@
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/surface/moments.hpp>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -197,18 +198,20 @@ class SurfaceContacts {
   }
 
   /// Number of cells that leave while the bodies approach over number of those that enter, between
-  /// the contacts solved so far; 0 on half-spaces, whose contact sets are nested.
+  /// the contacts solved so far; 0 on half-spaces, whose contact sets are nested. Collective.
   double leaving_share() const {
-    double leave = 0, enter = 0;
-    for (auto one = sets_.begin(); one != sets_.end(); ++one) {
-      const auto next = std::next(one);
-      if (next == sets_.end()) break;
-      for (std::size_t k = 0; k < one->second.size(); ++k) {
-        leave += one->second[k] && !next->second[k];
-        enter += !one->second[k] && next->second[k];
-      }
-    }
-    return enter > 0 ? leave / enter : 0;
+    if (sets_.size() < 2) return 0;
+    // All processes must decide alike whether the loss is refused.
+    const std::vector<double> moved = parallel::sum_blocks(
+        surface_.partition(), 2, [&](Index begin, Index end, std::span<double> sums) {
+          for (auto one = sets_.begin(), next = std::next(one); next != sets_.end(); ++one, ++next)
+            for (auto k = static_cast<std::size_t>(begin * surface_.grid.ny);
+                 k < static_cast<std::size_t>(end * surface_.grid.ny); ++k) {
+              sums[0] += one->second[k] && !next->second[k];
+              sums[1] += !one->second[k] && next->second[k];
+            }
+        });
+    return moved[1] > 0 ? moved[0] / moved[1] : 0;
   }
 
   StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
@@ -341,11 +344,11 @@ class SurfaceContacts {
         std::numbers::pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area());
     sample.together = together(spots);
     if (!body_.half_space_material()) {
-      const auto pressures = state.contact_pressure.reshaped();
+      const Field& pressures = state.contact_pressure;
       std::vector<bool>& set = sets_[state.indentation];
       set.resize(static_cast<std::size_t>(pressures.size()));
       for (Index k = 0; k < pressures.size(); ++k)
-        set[static_cast<std::size_t>(k)] = pressures[k] > 0;
+        set[static_cast<std::size_t>(k)] = pressures.data()[k] > 0;
     }
     before_ = std::move(last_);
     before_at_ = last_at_;

@@ -11,7 +11,6 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "base/memory.hpp"
@@ -790,7 +789,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   }
 
   constexpr double skew = 0.5;
-  const bool edges = std::abs(significant_skewness(surface)) > skew;
+  const bool edges = std::abs(height_statistics(surface).skewness) > skew;
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
   const auto is_open = [&](const Load& load, int halving) {
     const SurfaceDamping result = result_of(load, motion, options, edges);

@@ -217,6 +217,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     .x = x,
                     .y = axis_of("damping_constant", false, "damping constant γ")}};
   const std::size_t directions = results.size() / values.size();
+  const std::string form = "small-amplitude form";
   for (std::size_t d = 0; d < directions; ++d) {
     const DampingResult& first = results[d * values.size()];
     const std::string way = directions > 1 ? ", " + direction_in_words(first.direction) : "";
@@ -225,11 +226,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       return std::isfinite(one.slip_work) ||
              (std::isnan(one.work_per_cycle) && std::isfinite(one.work_per_cycle_without_slip));
     });
-    const auto add = [&](Panel& panel, const char* name, const char* of, const auto& number,
+    const auto add = [&](Panel& panel, const std::string& name, const char* of, const auto& number,
                          const auto& error) {
-      const bool form =
-          std::string_view(name) == "small-amplitude form" && &panel != &figure.panels[1];
-      Curve curve{.name = form ? name : name + way, .quantity = of, .x = values};
+      Curve curve{.name = name, .quantity = of, .x = values};
       for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
         curve.y.push_back(number(results[k]));
         curve.low.push_back(curve.y.back() - error(results[k]));
@@ -242,42 +241,40 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     };
     const auto none = [](const DampingResult&) { return ContactParameters::unknown; };
     add(
-        figure.panels[0], slips ? "W with slip" : "W", "work_per_cycle",
+        figure.panels[0], (slips ? "W with slip" : "W") + way, "work_per_cycle",
         [](const DampingResult& one) { return one.work_per_cycle; },
         [](const DampingResult& one) { return one.work_per_cycle_error(); });
     if (slips)
       add(
-          figure.panels[0], "W without slip", "work_per_cycle_without_slip",
+          figure.panels[0], "W without slip" + way, "work_per_cycle_without_slip",
           [](const DampingResult& one) { return one.work_per_cycle_without_slip; }, none);
-    // The closed form is the same in all directions.
-    if (d + 1 == directions) {
-      add(
-          figure.panels[0], "small-amplitude form", "small_amplitude_work",
-          [](const DampingResult& one) { return one.small_amplitude_work; }, none);
-      figure.panels[0].curves.back().style = Style::dashed;
-    }
     add(
-        figure.panels[1], "small-amplitude form", "",
+        figure.panels[1], form + way, "",
         [](const DampingResult& one) {
           return 100 * (one.small_amplitude_work / one.work_per_cycle_without_slip - 1);
         },
         none);
     add(
-        figure.panels[2], slips ? "γ with slip" : "γ", "damping_constant",
+        figure.panels[2], (slips ? "γ with slip" : "γ") + way, "damping_constant",
         [](const DampingResult& one) { return one.damping_constant; },
         [](const DampingResult& one) { return one.damping_constant_error(); });
     if (slips)
       add(
-          figure.panels[2], "γ without slip", "damping_constant_without_slip",
+          figure.panels[2], "γ without slip" + way, "damping_constant_without_slip",
           [](const DampingResult& one) { return one.damping_constant_without_slip; },
           [](const DampingResult& one) { return one.damping_constant_without_slip_error(); });
-    if (d + 1 == directions) {
-      add(
-          figure.panels[2], "small-amplitude form", "",
-          [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
-          none);
-      if (!figure.panels[2].curves.empty()) figure.panels[2].curves.back().style = Style::dashed;
-    }
+    // The closed form is the same in all directions.
+    if (d + 1 < directions) continue;
+    add(
+        figure.panels[0], form, "small_amplitude_work",
+        [](const DampingResult& one) { return one.small_amplitude_work; }, none);
+    add(
+        figure.panels[2], form, "",
+        [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
+        none);
+    for (const std::size_t panel : {0u, 2u})
+      if (!figure.panels[panel].curves.empty())
+        figure.panels[panel].curves.back().style = Style::dashed;
   }
   std::erase_if(figure.panels, [](const Panel& panel) { return panel.curves.empty(); });
   for (Panel& panel : figure.panels) {

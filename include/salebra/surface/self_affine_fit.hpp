@@ -62,8 +62,8 @@ constexpr void describe(auto&& visit, std::type_identity<DirectionalSelfAffineFi
 /// powers. The intervals of H and of the roll-off are those of likelihood-ratio tests at 5 %; the
 /// interval of the shortest wavelength is that of the strips, a fifth wide. Profiles along
 /// the lay get their power from waves across it, three times `ratio` as short: unless the law across
-/// the lay ends within the grid, the law along it uses only waves whose share of these the grid and
-/// the instrument show.
+/// the lay ends within the grid, the law along it uses only those waves for which the grid and the
+/// instrument show the short waves across it.
 /// throws  InvalidInput for a spectrum without a window, and for a lay with unknown angle or ratio
 /// cost    0.1 to 0.5 s for the fits, and two passes over the modes. Collective
 DirectionalSelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, const SurfaceLay& lay,
