@@ -9,7 +9,6 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/study/body_file.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/lay.hpp>
 
@@ -57,10 +56,6 @@ Conductances ContactArguments::conductances_of(const ForceSample& sample,
                                                double nominal_area) const {
   return conductances(sample.normal_stiffness / nominal_area, material.material().contact_modulus,
                       conduction);
-}
-
-std::optional<Body> ContactArguments::body() const {
-  return body_file.empty() ? std::optional<Body>() : read_body(body_file);
 }
 
 NormalContactOptions ContactArguments::contact_options(Session& session) const {
@@ -129,17 +124,14 @@ void check_adhesion(const ContactArguments& arguments, std::size_t points, const
 
 /// Throws InvalidInput for options that cannot be combined with --body.
 void check_body(const ContactArguments& arguments) {
-  if (arguments.body_file.empty()) return;
+  const std::string& file = arguments.material.body_file;
+  if (file.empty()) return;
   for (const auto& [given, option] :
        {std::pair(arguments.model != "bem", "--model"),
         {arguments.boundary != "periodic", "--boundary"},
-        {arguments.material.given(),
-         "--young, --poisson, --contact-modulus or "
-         "--tangential-modulus"},
-        {arguments.adhesive(), "--work-of-adhesion"},
         {arguments.hardness.has_value(), "--hardness"},
         {arguments.conduction.given(), "--conductivity or --resistivity"}})
-    require(!given, "--body", arguments.body_file,
+    require(!given, "--body", file,
             fmt::format("cannot be combined with {}; give one of them", option));
 }
 
@@ -149,7 +141,7 @@ void check(const ContactArguments& arguments, std::size_t points, const Session&
   const bool bem = arguments.model == "bem";
   check_body(arguments);
   std::vector<std::string> missing;
-  if (arguments.body_file.empty()) missing = arguments.material.missing(false);
+  if (arguments.material.body_file.empty()) missing = arguments.material.missing(false);
   if (points == 0)
     missing.insert(missing.begin(), "--pressure (or --normal-force, --mean-gap, --indentation)");
   if (bem && !arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
@@ -217,8 +209,7 @@ void press_files(ContactArguments arguments, const std::vector<std::string>& fil
                  Session& session) {
   require_options_of_one(session, {{!arguments.surface.recipe.empty(), "--recipe"},
                                    {arguments.model != "bem", "--model"},
-                                   {arguments.adhesive(), "--work-of-adhesion"},
-                                   {arguments.groups > 0, "--groups"},
+                                                              {arguments.groups > 0, "--groups"},
                                    {arguments.dry_run.dry_run, "--dry-run"}});
   arguments.command->require_none_of(
       once, "takes one surface, and several are given; --csv writes their table");
@@ -242,7 +233,7 @@ void run(ContactArguments arguments, Session& session) {
   const std::size_t points = arguments.count();
   check(arguments, points, session);
   if (arguments.model != "bem") return press_summits(arguments, session);
-  if (arguments.body_file.empty()) arguments.material.material();
+  if (arguments.material.body_file.empty()) arguments.material.material();
   if (!arguments.wants_stiffness() && arguments.material.contact_modulus &&
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect; it serves to compute K_t, which needs --stiffness");
@@ -348,12 +339,9 @@ void add_contact_command(Program& program) {
              "(gw_moments) or those of the surface (gw_deterministic); default bem");
   arguments->at.add_to(command, "Operating point (several pressures or forces give a curve)");
   arguments->material.add_to(command);
-  command.under("Material");
-  command
-      .add_option("--body", arguments->body_file,
-                  "file of a layered, graded or anisotropic body in place of the material; with "
-                  "--stiffness, K_t is computed by solving each contact in full stick")
-      ->file(FileUse::input);
+  arguments->material.add_body_to(command,
+                                  "with --stiffness, K_t is computed by solving each contact in "
+                                  "full stick");
   add_conduction(command, arguments->conduction);
 
   add_boundary_elements(command, *arguments);

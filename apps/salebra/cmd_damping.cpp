@@ -236,6 +236,7 @@ void lose(const DampingArguments& arguments, Session& session) {
       for (const double value : values) rows.push_back(value);
   }
   object.add(answer_json(answer, answer.contact.nominal_area()));
+  arguments.material.add_datum_to(object);
   // Without friction the losses without slip equal the other losses, so they are left out.
   if (!arguments.assumptions.friction_coefficient)
     for (const char* name : {"work_per_cycle_without_slip", "damping_constant_without_slip",
@@ -386,6 +387,7 @@ void damp(const DampingArguments& arguments, Session& session) {
     if (!std::isnan(answer.contact.direction())) one["direction"] = answer.contact.direction();
     for (const auto& [name, field] : fields_of(answer)) one[name] = constants(*field);
     one.add(answer_json(answer));
+    arguments.material.add_datum_to(one);
     Json shown = object;
     shown.add(one);
     if (!text.empty()) text += "\n";
@@ -538,6 +540,7 @@ void add_damping_command(Program& program) {
   arguments->maps.add_to(command);
   arguments->assumptions.add_to(command);
   arguments->material.add_to(command);
+  arguments->material.add_body_to(command, "with --surface, or a --curve of such a body");
 }
 
 }  // namespace salebra::cli

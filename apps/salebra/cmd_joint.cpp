@@ -291,6 +291,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (const double direction = found.contact.direction(); !std::isnan(direction))
     answer["direction"] = direction;
   answer.add(limits.state());
+  arguments.material.add_datum_to(answer);
   std::vector<ResultTable> tables{limits.motions(area)};
   if (solutions.size() > 1) {
     session.inform(limits.meaning());
@@ -331,6 +332,7 @@ void add_joint_command(Program& program) {
   arguments->law.add_to(command);
   arguments->law.add_roughness_to(command);
   arguments->material.add_to(command);
+  arguments->material.add_body_to(command, "with --surface, or a --curve of such a body");
   add_quantity(command, "--nominal-area", arguments->law.nominal_area, Dimension::length_squared,
                "nominal area of the part: forces of --curve or --surface are scaled to it; with "
                "--law, for results per area");

@@ -133,7 +133,7 @@ void check(const OscillateArguments& arguments, Session& session) {
 OscillationCase case_of(const OscillateArguments& arguments, const std::string& shape,
                         Session& session) {
   OscillationCase contact;
-  contact.material = arguments.material.material_with_tangential_modulus();
+  contact.material = arguments.material.body();
   contact.body = shape.empty() ? file_of(arguments, session) : shape_of(arguments, shape);
   OscillatingBody& body = contact.body;
   body.boundary = parse_enum<Boundary>(arguments.boundary).value_or(body.boundary);
@@ -141,14 +141,14 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
     session.inform(
         "The surface does not repeat itself, so it is alone on a half-space; --boundary periodic "
         "continues it, as contact and damping do.");
-  const double modulus = contact.material.contact_modulus;
+  const std::optional<Material>& constants = contact.material.half_space_material();
   const OperatingPoint point = point_of(arguments.point, body);
-  if (point.control == ControlQuantity::pressure)
-    session.warn_if(warning_of_pressure(point.value, modulus));
-  contact.indentation = mean_indentation(body, modulus, point);
+  if (constants && point.control == ControlQuantity::pressure)
+    session.warn_if(warning_of_pressure(point.value, constants->contact_modulus));
+  contact.indentation = mean_indentation(body, contact.material, point);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
   const auto settle = [&] {
-    contact.indentation = mean_indentation(contact.body, modulus, point, contact.motion,
+    contact.indentation = mean_indentation(contact.body, contact.material, point, contact.motion,
                                            *parse_enum<Hold>(arguments.hold), session.progress());
   };
   settle();
@@ -194,9 +194,9 @@ CycleRecorder recorder_of(const OscillateArguments& arguments, const Oscillation
           std::move(settings),
           session.provenance(),
           {surface,
-           [&surface, modulus = contact.material.contact_modulus,
+           [&surface, material = contact.material,
             normal = NormalContactOptions{.boundary = contact.body.boundary}](double indentation) {
-             return press(surface, modulus, at_indentation(indentation), normal);
+             return press(surface, material, at_indentation(indentation), normal);
            }},
           arguments.friction.cycles()};
 }
@@ -378,6 +378,7 @@ void add_oscillate_command(Program& program) {
   arguments->friction.add_to(command);
   arguments->assumptions.add_to(command);
   arguments->material.add_to(command);
+  arguments->material.add_body_to(command, "the surface is then periodic");
 }
 
 }  // namespace salebra::cli

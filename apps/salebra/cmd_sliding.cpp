@@ -149,7 +149,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
   for (const ContactSolution& one : contacts) {
     SlidingSolution solution =
         solve(problem, one,
-              one.surface ? arguments.material.material_with_tangential_modulus() : Material{},
+              one.surface ? arguments.material.body() : Body(Material{}),
               session.context());
     add_assumptions(solution, problem, one, arguments.assumptions.parameters(arguments.material),
                     assumptions);
@@ -162,6 +162,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
   session.warn(found.warnings);
 
   Json answer = Json::object(), columns = Json::object(), all = json_of(found.points);
+  arguments.material.add_datum_to(answer);
   // The direction is the first column of the rows that it distinguishes.
   if (contacts.size() > 1) columns["direction"] = all["direction"];
   columns.add(all);
@@ -229,6 +230,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
 
   Json answer = json_of(found.motion);
   if (!std::isnan(contact.direction())) answer["direction"] = contact.direction();
+  arguments.material.add_datum_to(answer);
   answer["averaged"] = json_of(found.averaged);
   answer["mean_force"] = found.sliding.mean_force;
   const Json stability = json_of(found.stability);
@@ -298,6 +300,7 @@ void add_sliding_command(Program& program) {
       OutputCheck::any_name);
   arguments->law.add_to(command);
   arguments->material.add_to(command);
+  arguments->material.add_body_to(command, "with --surface, or a --curve of such a body");
   command.under("Motion");
   SlidingProblem& sliding = arguments->sliding;
   add_values(

@@ -91,12 +91,14 @@ AdhesiveContactOptions ContactArguments::adhesive_options(Session& session) cons
 }
 
 void press_adhesively(const ContactArguments& arguments, Session& session) {
-  const Material material = arguments.material.material();
+  const std::optional<Body> body_of_file = arguments.material.body_of_file();
+  const Body body = body_of_file ? *body_of_file : Body(arguments.material.material());
+  const std::optional<Material>& material = body.half_space_material();
   const Surface surface = arguments.surface.read(session);
   const Adhesion adhesion = arguments.adhesion();
   const double area = surface.grid.area();
   for (const double pressure : arguments.pressures_on(area))
-    session.warn_if(warning_of_pressure(pressure, material.contact_modulus));
+    if (material) session.warn_if(warning_of_pressure(pressure, material->contact_modulus));
   Branch loading;
   loading.curve.model = "bem";
   loading.curve.adhesive = true;
@@ -115,7 +117,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   }
   const SweepOptions sample{.contact = options.contact.contact,
                             .stiffness = arguments.wants_stiffness(),
-                            .stick = arguments.stick,
+                            .stick = arguments.sticks(),
                             .direction = direction};
   options.on_state = [&](bool out, const AdhesiveContactState& state) {
     Branch& branch = out ? unloading : loading;
@@ -123,15 +125,15 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
     if (state.detached)
       branch.curve.samples.push_back({.force = state.force, .pressure = state.mean_pressure});
     else
-      branch.curve.samples.push_back(force_sample(state, surface, material, sample));
+      branch.curve.samples.push_back(force_sample(state, surface, body, sample));
     branch.adhesion.push_back(state);
     if (arguments.flow_factors)
       branch.flow.push_back(state.detached ? FlowFactors() : flow_of(state, surface, {}));
   };
   const AdhesiveCycle cycle =
-      adhesive_cycle(surface, material.contact_modulus, points_of(arguments), adhesion, options);
+      adhesive_cycle(surface, body, points_of(arguments), adhesion, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
-  session.warn_if(warning_of_process_zone(adhesion, surface.grid, material.contact_modulus));
+  session.warn_if(warning_of_process_zone(adhesion, surface.grid, body));
   require_converged(cycle);
   Json answer{{"curve", loading.json(arguments)}};
   if (arguments.cycle) {
@@ -142,7 +144,8 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
           "the branches of the cycle do not meet at its outermost point, so its work is not known; "
           "begin farther out");
   }
-  answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));
+  if (material) answer.add(json_of(mean_summit(surface, adhesion, material->contact_modulus)));
+  arguments.material.add_datum_to(answer);
   collectively(session.communicator(), [&] { write(loading, unloading, cycle, session); });
   if (session.has_plot())
     session.plot(arguments.cycle ? figures::figure_of(loading.curve, unloading.curve)

@@ -25,7 +25,6 @@ struct ContactArguments {
   std::string csv;  ///< table of several surfaces
   SurfaceOptions surface;
   MaterialOptions material;
-  std::string body_file;  ///< file of a body, in place of the material; empty: none
   std::string model = "bem";
 
   OperatingPointsOptions at;
@@ -57,9 +56,7 @@ struct ContactArguments {
   /// otherwise. area: nominal area, m².
   std::vector<double> pressures_on(double area) const;
   /// Whether K_t is computed in full stick; for a body always, since no ratio of moduli gives it.
-  bool sticks() const { return stick || !body_file.empty(); }
-  /// The body of --body.
-  std::optional<Body> body() const;
+  bool sticks() const { return stick || !material.body_file.empty(); }
   NormalContactOptions contact_options(Session& session) const;
   bool adhesive() const { return work_of_adhesion.has_value(); }
   Adhesion adhesion() const;

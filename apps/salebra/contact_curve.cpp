@@ -34,7 +34,7 @@ int groups_of(const ContactArguments& arguments, const SurfaceWork& work, const 
 SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& outline,
                     Session& session) {
   SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
-  const std::optional<Body> body = arguments.body();
+  const std::optional<Body> body = arguments.material.body_of_file();
   const double modulus = body ? detail::reference_modulus(*body, outline.grid)
                               : arguments.material.material().contact_modulus;
   const double unit = modulus * outline.rms_slope;
@@ -111,7 +111,7 @@ int contact_groups(const ContactArguments& arguments, Session& session) {
 }
 
 void press_often(const ContactArguments& arguments, Session& session) {
-  const std::optional<Body> body = arguments.body();
+  const std::optional<Body> body = arguments.material.body_of_file();
   const Material material = body ? Material{} : arguments.material.material();
   const int groups = contact_groups(arguments, session);
   SweepOptions options;

@@ -102,7 +102,7 @@ class OneContact {
   OneContact(const ContactArguments& arguments, Session& session)
       : arguments_(arguments),
         session_(session),
-        body_(arguments.body()),
+        body_(arguments.material.body_of_file()),
         material_(body_ ? Material{} : arguments.material.material()),
         options_(arguments.contact_options(session)),
         surface_(arguments.surface.read(session)) {
@@ -117,10 +117,10 @@ class OneContact {
     if (arguments_.adhesive()) {
       AdhesiveContactOptions options = arguments_.adhesive_options(session_);
       options.contact.hardness = options_.hardness;
-      state_ = press_adhesive(surface_, material_.contact_modulus, point_of(arguments_, surface_),
+      const Body body = body_ ? *body_ : Body(material_);
+      state_ = press_adhesive(surface_, body, point_of(arguments_, surface_),
                               arguments_.adhesion(), options);
-      session_.warn_if(
-          warning_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
+      session_.warn_if(warning_of_process_zone(arguments_.adhesion(), surface_.grid, body));
     } else {
       const OperatingPoint point = point_of(arguments_, surface_);
       static_cast<NormalContactState&>(state_) =
@@ -190,11 +190,12 @@ class OneContact {
 
   void add_adhesion() {
     const AdhesionOfState& adhesion = state_;
+    answer_.add(json_of(adhesion));
+    put_beside(adhesion);
+    if (body_) return;
     const MeanSummit summit =
         mean_summit(surface_, arguments_.adhesion(), material_.contact_modulus);
-    answer_.add(json_of(adhesion));
     answer_.add(json_of(summit));
-    put_beside(adhesion);
     put_beside(summit);
   }
 

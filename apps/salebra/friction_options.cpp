@@ -47,12 +47,15 @@ void FrictionOptions::check(const Oscillation& motion, double indentation) const
 }
 
 void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,
-                            const Material& material) const {
+                            const Body& body) const {
   if (friction_coefficient) cycle.friction_coefficient = *friction_coefficient;
   cycle.max_periods = max_periods;
   if (!coupled) return;
+  require(body.half_space_material().has_value(), "--body", bodies.body_file,
+          "cannot be combined with --coupled; give the elastic constants of half-spaces");
   if (dundurs)
-    cycle.coupling_constant = *dundurs / (std::numbers::pi * material.contact_modulus);
+    cycle.coupling_constant =
+        *dundurs / (std::numbers::pi * body.half_space_material()->contact_modulus);
   else
     cycle.coupling_constant = bodies.coupling_constant();
 }

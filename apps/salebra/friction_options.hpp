@@ -27,7 +27,7 @@ struct FrictionOptions {
   void check(const Oscillation& motion, double indentation) const;
   /// Sets the options of the simulated cycles: μ, number of periods and, with --coupled, the
   /// coupling constant β/(πE*) (β: Dundurs' constant) from --dundurs or the material.
-  void apply(CycleOptions& cycle, const MaterialOptions& bodies, const Material& material) const;
+  void apply(CycleOptions& cycle, const MaterialOptions& bodies, const Body& body) const;
   /// Names of the recorded cycles in the order in which they run; the cycle without slip is the
   /// first.
   std::vector<std::string> cycles() const;

@@ -114,7 +114,7 @@ std::vector<ContactProblem> LawOptions::problems(const MaterialOptions& material
                                    ControlQuantity::pressure, ControlQuantity::mean_gap});
     for (ForceCurve& one : read_force_curves(curve))
       all.emplace_back(CurveContact{.curve = std::move(one),
-                                    .modulus_ratio = material.modulus_ratio(),
+                                    .modulus_ratio = material.modulus_ratio_of_curve(),
                                     .at = points,
                                     .source = curve,
                                     .direction = direction_choice(direction, "--direction")});
@@ -141,7 +141,7 @@ ContactProblem LawOptions::read(const MaterialOptions& material, bool with_point
   require_own_parameters();
   if (!curve.empty())
     return CurveContact{.curve = read_force_curve(curve),
-                        .modulus_ratio = material.modulus_ratio(),
+                        .modulus_ratio = material.modulus_ratio_of_curve(),
                         .at = control({normal_force, ControlQuantity::indentation,
                                        ControlQuantity::pressure, ControlQuantity::mean_gap}),
                         .source = curve};
@@ -174,7 +174,7 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
   require_own_parameters();
   std::vector<double> values = operating_point_of(*this, {ControlQuantity::pressure}).values;
   return SurfaceContact{.surface = surface.read(session),
-                        .material = material.material_with_tangential_modulus(),
+                        .body = material.body(),
                         .pressure = std::move(values),
                         .hardness = hardness,
                         .direction = choice};

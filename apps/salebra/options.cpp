@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>  // coupling_constant(bodies)
 #include <salebra/io/read_surface.hpp>
+#include <salebra/study/body_file.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -101,8 +103,35 @@ void add_conduction(Command& app, Conduction& bodies) {
              "electrical_conductance per nominal area");
 }
 
+void MaterialOptions::add_body_to(Command& app, const std::string& stiffness) {
+  const Heading under(app, "Material");
+  app.add_option("--body", body_file,
+                 "file of a layered, graded or anisotropic body in place of the material; " +
+                     stiffness)
+      ->file(FileUse::input);
+}
+
+std::optional<Body> MaterialOptions::body_of_file() const {
+  if (body_file.empty()) return {};
+  require(!given(), "--body", body_file,
+          "cannot be combined with --young, --poisson, --contact-modulus or --tangential-modulus; "
+          "give one of them");
+  return read_body(body_file);
+}
+
+void MaterialOptions::add_datum_to(Json& answer) const {
+  if (const std::optional<Body> body = body_of_file())
+    answer["datum"] = std::string(name_of(body->datum()));
+}
+
+Body MaterialOptions::body() const {
+  if (const std::optional<Body> body = body_of_file()) return *body;
+  return material_with_tangential_modulus();
+}
+
 std::vector<std::string> MaterialOptions::missing(bool tangential) const {
   std::vector<std::string> options;
+  if (!body_file.empty()) return options;
   if (young.empty() && !contact_modulus)
     options.emplace_back("--contact-modulus (or --young with --poisson)");
   if (!young.empty() && poisson.empty()) options.emplace_back("--poisson");
@@ -124,6 +153,8 @@ void require_bodies(const std::vector<double>& poisson, std::size_t bodies) {
 }  // namespace
 
 Material MaterialOptions::material() const {
+  require(body_file.empty(), "--body", body_file,
+          "is for contacts of a surface; give the elastic constants");
   if (!young.empty()) {
     require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
             "cannot be combined with --contact-modulus or --tangential-modulus; give one kind");
@@ -156,6 +187,10 @@ double MaterialOptions::modulus_ratio() const {
     return Material::of_contact_modulus(1, poisson[0]).modulus_ratio();
   }
   return material_with_tangential_modulus().modulus_ratio();
+}
+
+double MaterialOptions::modulus_ratio_of_curve() const {
+  return body_of_file() ? std::numeric_limits<double>::quiet_NaN() : modulus_ratio();
 }
 
 double MaterialOptions::coupling_constant() const {

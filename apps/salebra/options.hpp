@@ -7,6 +7,7 @@
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
@@ -77,20 +78,32 @@ void require_options(const std::vector<std::string>& missing, const std::string&
 struct MaterialOptions {
   std::vector<double> young, poisson;
   std::optional<double> contact_modulus, tangential_modulus;
+  std::string body_file;  ///< --body, in place of all of these
 
   void add_to(Command& app);
+  /// Adds --body. stiffness: what the help says of the tangential stiffness.
+  void add_body_to(Command& app, const std::string& stiffness);
+  /// The body of --body, if it was given. Throws InvalidInput if elastic constants are given too.
+  std::optional<Body> body_of_file() const;
+  /// Adds the datum of the body of --body, if it was given, to an answer.
+  void add_datum_to(Json& answer) const;
+  /// The body of --body or, without it, material_with_tangential_modulus().
+  Body body() const;
+  /// Whether elastic constants are given.
   bool given() const {
     return !young.empty() || !poisson.empty() || contact_modulus || tangential_modulus;
   }
   /// The options that were not given and that material() needs or (tangential true)
   /// material_with_tangential_modulus() needs.
   std::vector<std::string> missing(bool tangential) const;
-  /// The material with E* and, if it is known, G*.
+  /// The material with E* and, if it is known, G*. Throws InvalidInput for --body.
   Material material() const;
   /// The material with E* and G*; throws InvalidInput if G* is not known.
   Material material_with_tangential_modulus() const;
   /// G*/E*. If one body is rigid, --poisson of the elastic body is enough.
   double modulus_ratio() const;
+  /// The same for a curve that may have K_t of its own: NaN for --body.
+  double modulus_ratio_of_curve() const;
   /// The coupling constant β/(πE*), 1/Pa, with Dundurs' constant β; from the two bodies of --young
   /// or, if they are not given, from the material.
   double coupling_constant() const;

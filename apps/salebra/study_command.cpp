@@ -84,6 +84,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
                   "seeds of the study file")
       ->file(FileUse::input);
   material.add_to(command);
+  material.add_body_to(command, "boundary elements alone are then computed");
   add_conduction(command, conduction);
   motion.add_to(command);
   assumptions.add_to(command);
@@ -267,7 +268,13 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
 StudyConfiguration StudyArguments::study() const {
   const bool from_file = !configuration.empty();
   StudyConfiguration study = study_of(*this);
-  if (!from_file || material.given()) study.material = material.material_with_tangential_modulus();
+  if (const std::optional<Body> body = material.body_of_file()) {
+    study.body = body;
+    study.models = {ContactModel::bem};
+  } else if (!from_file || material.given()) {
+    study.material = material.material_with_tangential_modulus();
+    study.body.reset();
+  }
   if (!from_file || motion.given()) {
     const auto motions = (from_file ? motion.completed_from(study.motion) : motion).motions();
     require(motions.size() == 1, motion.varied().first, motions.size(),
@@ -717,9 +724,10 @@ std::string heading(const StudyResult& result) {
   const auto count = result.realisations.size();
   const bool flowed = std::ranges::any_of(
       result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
+  const std::string modulus = format_quantity(material.contact_modulus, Dimension::pressure);
+  const std::optional<Body>& body = result.configuration.body;
   return fmt::format(
-      "surface     {} x {} points, {} x {}, {}{}\nrms height  {}\nrms slope   {}\nE*, G*      {}, "
-      "{}\n\n",
+      "surface     {} x {} points, {} x {}, {}{}\nrms height  {}\nrms slope   {}\n{}\n\n",
       grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
       format_quantity(grid.ly, Dimension::length),
       count == 1 ? "1 surface" : fmt::format("{} surfaces", count),
@@ -728,8 +736,10 @@ std::string heading(const StudyResult& result) {
                       Dimension::length),
       format_quantity(result.mean([](const auto& r) { return r.moments.rms_slope(); }).mean,
                       Dimension::dimensionless),
-      format_quantity(material.contact_modulus, Dimension::pressure),
-      format_quantity(material.tangential_modulus, Dimension::pressure));
+      body ? fmt::format("body        like a half-space with E* = {}, datum {}", modulus,
+                         name_of(body->datum()))
+           : "E*, G*      " + modulus + ", " +
+                 format_quantity(material.tangential_modulus, Dimension::pressure));
 }
 
 std::string in_words(const LawDescription& law, const std::string& what) {

@@ -88,12 +88,13 @@ the two. Do not use the numbers unless `converged`.
 void bind_press(nb::module_& m) {
   m.def(
       "press_adhesive",
-      [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
+      [](const BoundSurface& surface, const PressedArgument& material, const Adhesion& adhesion,
          std::optional<double> pressure, std::optional<double> mean_gap,
          std::optional<double> indentation, std::optional<double> force, double tolerance,
          int max_outer_iterations, const Choice<Boundary>& boundary, double hardness,
          const BoundAdhesiveContact* start, bool force_coarse, const ProgressArgument& progress) {
-        const double contact_modulus = material.material().contact_modulus;
+        const double contact_modulus = material.body ? std::numeric_limits<double>::quiet_NaN()
+                                                     : material.material.material().contact_modulus;
         AdhesiveContactOptions options{
             .tolerance = tolerance,
             .max_outer_iterations = max_outer_iterations,
@@ -105,11 +106,11 @@ void bind_press(nb::module_& m) {
             [&](Progress told) {
               options.contact.on_progress = std::move(told);
               auto state = press_adhesive(
-                  surface.surface, contact_modulus,
+                  surface.surface, material.pressed(),
                   operating_point_of(pressure, mean_gap, indentation, force), adhesion, options);
               return new BoundAdhesiveContact{
                   {std::move(static_cast<NormalContactState&>(state)), surface.surface.grid,
-                   contact_modulus, options.contact.boundary},
+                   contact_modulus, options.contact.boundary, {material.body}},
                   std::move(static_cast<AdhesionOfState&>(state))};
             },
             surface.surface.communicator);
@@ -132,7 +133,7 @@ or force may pull. Solutions are local minima: they depend on the start.
 Parameters
 ----------
 surface : Surface
-material : Material or float
+material : Material, Body or float
     A number is E* > 0, Pa.
 adhesion : Adhesion
 pressure, mean_gap, indentation, force : float, optional
@@ -160,7 +161,7 @@ AdhesiveContactState
                               "Loading and unloading of an adhesive contact in steps.");
   m.def(
       "adhesive_cycle",
-      [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
+      [](const BoundSurface& surface, const PressedArgument& material, const Adhesion& adhesion,
          const std::optional<Values>& pressures, const std::optional<Values>& mean_gaps,
          const std::optional<Values>& indentations, bool unload, double tolerance,
          int max_outer_iterations, const Choice<Boundary>& boundary, bool force_coarse,
@@ -176,7 +177,7 @@ AdhesiveContactState
         add(pressures, ControlQuantity::pressure);
         add(mean_gaps, ControlQuantity::mean_gap);
         add(indentations, ControlQuantity::indentation);
-        const Material of_bodies = material.material();
+        const Body body = material.pressed();
         AdhesiveCycleOptions options{
             .contact = {.tolerance = tolerance,
                         .max_outer_iterations = max_outer_iterations,
@@ -187,7 +188,7 @@ AdhesiveContactState
             progress,
             [&](Progress told) {
               options.contact.contact.on_progress = std::move(told);
-              const AdhesiveCycle cycle = adhesive_cycle(surface.surface, of_bodies.contact_modulus,
+              const AdhesiveCycle cycle = adhesive_cycle(surface.surface, body,
                                                          points, adhesion, options);
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
                 ForceCurve curve;
@@ -196,7 +197,7 @@ AdhesiveContactState
                 curve.nominal_area = surface.surface.grid.area();
                 for (const AdhesiveContactState& state : branch)
                   curve.samples.push_back(
-                      force_sample(state, surface.surface, of_bodies,
+                      force_sample(state, surface.surface, body,
                                    {.contact = options.contact.contact, .stiffness = false}));
                 return curve;
               };
@@ -217,7 +218,7 @@ AdhesiveContactState
 Parameters
 ----------
 surface : Surface
-material : Material or float
+material : Material, Body or float
 adhesion : Adhesion
 pressures, mean_gaps, indentations : array_like, optional
     Give one of them, from the loosest to the tightest contact, Pa or m. With pressures the pull-off is bracketed to 2 %; with gaps the

@@ -97,17 +97,19 @@ boundary_element_contact_sets : the contact sets of a surface.
       .def_ro("grid", &BoundContactSets::grid);
   m.def(
       "boundary_element_contact_sets",
-      [](const BoundSurface& surface, const MaterialArgument& material, double tolerance,
+      [](const BoundSurface& surface, const PressedArgument& material, double tolerance,
          int max_iterations, const Choice<Boundary>& boundary) {
-        const double contact_modulus = material.material().contact_modulus;
+        const Body body = material.pressed();
         cite({"polonsky_keer1999", "stanley_kato1997"});
         const NormalContactOptions options = contact_options(tolerance, max_iterations, boundary);
         return BoundContactSets{
-            boundary_element_contact_sets(Surface(surface.surface), contact_modulus, options),
+            boundary_element_contact_sets(Surface(surface.surface), body, options),
             surface.surface.grid,
+            // The settings of a cycle tell bodies that are not half-spaces apart.
             fmt::format("surface {}, {} Pa, {} boundary to {} in {} iterations",
-                        fingerprint(surface.surface.heights), contact_modulus, boundary.text,
-                        tolerance, max_iterations)};
+                        fingerprint(surface.surface.heights),
+                        material.body ? 0 : material.material.material().contact_modulus,
+                        boundary.text, tolerance, max_iterations)};
       },
       nb::arg("surface"), nb::arg("material"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
@@ -151,7 +153,7 @@ StickOptions stick_options(double tolerance, int max_iterations, const Choice<Bo
 void bind_simulations(nb::module_& m) {
   m.def(
       "simulate_cycle",
-      [](const BoundContactSets& contact_sets, const Material& material,
+      [](const BoundContactSets& contact_sets, const PressedArgument& material,
          const std::variant<EqualFrequency, Drag>& motion, double mean_indentation, int steps,
          int max_periods, double direction, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const std::optional<std::filesystem::path>& checkpoint,
@@ -161,13 +163,14 @@ void bind_simulations(nb::module_& m) {
                                    .max_periods = max_periods,
                                    .direction = direction,
                                    .stick = stick_options(tolerance, max_iterations, boundary)};
-        CycleSettings settings = cycle_settings(contact_sets.grid, material, oscillation(motion),
-                                                mean_indentation, options);
+        CycleSettings settings = cycle_settings(contact_sets.grid, material.pressed(),
+                                                oscillation(motion), mean_indentation, options);
         settings.emplace_back("contact_sets", contact_sets.identity);
         return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
                           progress, [&](const CycleOptions& chosen, const Progress&) {
                             return simulate_cycle(contact_sets.contact_sets, contact_sets.grid,
-                                                  material, trajectory(motion, mean_indentation),
+                                                  material.pressed(),
+                                                  trajectory(motion, mean_indentation),
                                                   chosen);
                           });
       },
@@ -185,7 +188,7 @@ Parameters
 ----------
 contact_sets : ContactSets
     Such as :func:`boundary_element_contact_sets` of a surface.
-material : Material
+material : Material or Body
 motion : EqualFrequency or Drag
 mean_indentation : float
     m, from first touch.
@@ -218,7 +221,8 @@ InvalidInput
                                               const char* description, auto... constant_argument) {
     m.def(
         name,
-        [](const BoundSurface& surface, const Material& material,
+        [](const BoundSurface& surface,
+           const std::conditional_t<sizeof...(Constant) == 0, PressedArgument, Material>& material,
            const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
            double friction_coefficient, Constant... coupling_constant, int steps, int max_periods,
            double steady_tolerance, double direction, double tolerance, int max_iterations,
@@ -232,7 +236,13 @@ InvalidInput
                                .direction = direction,
                                .stick = stick_options(tolerance, max_iterations, boundary)};
           ((options.coupling_constant = coupling_constant), ...);
-          CycleSettings settings = cycle_settings(surface.surface.grid, material,
+          const auto body = [&]() -> Body {
+            if constexpr (sizeof...(Constant) == 0)
+              return material.pressed();
+            else
+              return material;
+          }();
+          CycleSettings settings = cycle_settings(surface.surface.grid, body,
                                                   oscillation(motion), mean_indentation, options);
           if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
           return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
@@ -245,9 +255,9 @@ InvalidInput
                                                               chosen, normal);
                               else
                                 return simulate_frictional_cycle(
-                                    boundary_element_pressures(Surface(surface.surface),
-                                                               material.contact_modulus, normal),
-                                    surface.surface.grid, material, path, chosen);
+                                    boundary_element_pressures(Surface(surface.surface), body,
+                                                               normal),
+                                    surface.surface.grid, body, path, chosen);
                             });
         },
         nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
@@ -268,7 +278,7 @@ checkpoints; friction_coefficient: μ.
 )");
   m.def(
       "simulated_joint_loss",
-      [](const BoundSurface& surface, const Material& material, double mean_indentation,
+      [](const BoundSurface& surface, const PressedArgument& material, double mean_indentation,
          double friction_coefficient, std::optional<double> tangential_amplitude,
          std::optional<double> tangential_force, double normal_amplitude, double phase, int steps,
          int max_periods, double tolerance, int max_iterations, const Choice<Boundary>& boundary,
@@ -285,9 +295,9 @@ checkpoints; friction_coefficient: μ.
         return interruptible(progress, [&](Progress told) {
           options.on_progress = told;
           return simulated_joint_loss(
-              boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
+              boundary_element_pressures(Surface(surface.surface), material.pressed(),
                                          {.boundary = options.stick.boundary, .on_progress = told}),
-              surface.surface.grid, material, mean_indentation, {motion, normal_amplitude, phase},
+              surface.surface.grid, material.pressed(), mean_indentation, {motion, normal_amplitude, phase},
               options);
         });
       },

@@ -97,26 +97,23 @@ void bind_surface_damping(nb::module_& m) {
         if (seam) options.seam = seam->value("seam");
         require_that(curve || options.boundary == Boundary::periodic, "boundary",
                      "'free' needs a `curve` that was swept so; give it in place of `pressures`");
+        const Body body = std::visit([](const auto& one) { return Body(one); }, material);
         if (curve)
           return interruptible(
               progress,
               [&](Progress told) {
                 options.on_progress = std::move(told);
-                const Body body = std::visit([](const auto& one) { return Body(one); }, material);
                 return curve_of(
                     surface_damping(surface.surface, body, oscillation(motion), *curve, options),
                     *curve, oscillation(motion));
               },
               surface.surface.communicator);
-        require_that(std::holds_alternative<Material>(material), "material",
-                     "is a Body, which needs a `curve` in place of `pressures`: that of "
-                     "sweep_pressures() with stick=True");
         std::vector<std::string> warnings;
         BoundDampingCurve found = interruptible(
             progress,
             [&](Progress told) {
               SurfaceContact contact{.surface = surface.surface,
-                                     .material = std::get<Material>(material),
+                                     .body = body,
                                      .pressure = pressures->values,
                                      .direction = chosen};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
@@ -122,12 +123,17 @@ std::vector<std::string> warnings_of_moduli(const ForceCurve& curve, double modu
   if (ratios.empty()) return {};
   const auto [low, high] = std::ranges::minmax(ratios);
   const double tolerance = high - low > 1e-6 * high ? 0.1 : 1e-3;
+  if (std::isnan(modulus_ratio)) return {};
   if (modulus_ratio > (1 - tolerance) * low && modulus_ratio < (1 + tolerance) * high) return {};
   return {
       fmt::format("`poisson` or `tangential_modulus` gives G*/E* = {:.4g}, but the file of the "
                   "curve has K_t/K = {:.4g}; give the material with which the curve was computed",
                   modulus_ratio, low)};
 }
+
+/// Whether a contact in which all cells touch cannot be indented further. A layer measured from its
+/// base can.
+bool closes(const Body& body) { return !(body.compliance(0).normal > 0); }
 
 /// The requested pressures and further ones around each, from a sixth to six times it. They are
 /// close enough for a smooth law through the contacts.
@@ -165,10 +171,12 @@ std::vector<ForceCurve> curves_of_surface(const SurfaceContact& body,
                                           const std::vector<double>& directions,
                                           const Context& context) {
   std::vector<ForceCurve> curves =
-      sweep_directions(body.surface, body.material, pressures, directions, sweep_options(context));
+      sweep_directions(body.surface, body.body, pressures, directions, sweep_options(context));
   require_converged(curves.front(), context);
   // In full contact nothing can close further: the force grows without indentation.
-  const auto full = [](const ForceSample& sample) { return !(sample.contact_area_fraction < 1); };
+  const auto full = [&](const ForceSample& sample) {
+    return closes(body.body) && !(sample.contact_area_fraction < 1);
+  };
   for (const ForceSample& sample : curves.front().samples)
     if (full(sample))
       for (const double pressure : body.pressure)
@@ -197,9 +205,10 @@ void cover_motion(std::vector<ForceCurve>& curves, const std::vector<double>& di
                   const SurfaceContact& body, Hold hold, const Context& context) {
   const ForceCurve& curve = curves.front();
   constexpr double step = 1.35, lowest_share = 0.01;
-  const double amplitude = body.normal_amplitude, ratio = body.material.modulus_ratio();
+  const double amplitude = body.normal_amplitude, ratio = body.body.modulus_ratio();
   const SweepOptions options = sweep_options(context);
-  const double full = detail::full_contact(body.surface);
+  const double full = closes(body.body) ? detail::full_contact(body.surface)
+                                        : std::numeric_limits<double>::infinity();
   std::vector<double> below;
   for (const double pressure : body.pressure) {
     const double force = pressure * curve.nominal_area;
@@ -215,9 +224,9 @@ void cover_motion(std::vector<ForceCurve>& curves, const std::vector<double>& di
                                                                hold == Hold::force ? top : full));
       const double length = law.force(top) / law.normal_stiffness(top);
       NormalContactState state =
-          press(body.surface, body.material.contact_modulus,
+          press(body.surface, body.body,
                 at_indentation(std::min(*next, top + std::log(step) * length)), options.contact);
-      const auto samples = force_samples(state, body.surface, body.material, options, directions);
+      const auto samples = force_samples(state, body.surface, body.body, options, directions);
       for (std::size_t k = 0; k < curves.size(); ++k) curves[k].samples.push_back(samples[k]);
       require_converged(curve, context);
     }
@@ -341,8 +350,10 @@ Solutions solutions(SurfaceContact body, const Context& context) {
   for (const double value : body.pressure) require_positive(value, "pressure");
   const double largest = std::ranges::max(body.pressure);
   std::vector<std::string> warnings;
-  if (const auto warning = warning_of_pressure(largest, body.material.contact_modulus))
-    warnings.push_back(*warning);
+  const std::optional<Material>& material = body.body.half_space_material();
+  if (material)
+    if (const auto warning = warning_of_pressure(largest, material->contact_modulus))
+      warnings.push_back(*warning);
   const SurfaceLay lay = surface_lay(body.surface);
   const std::vector<double> directions = directions_of(body.direction, lay);
   if (std::holds_alternative<double>(body.direction))
@@ -353,11 +364,14 @@ Solutions solutions(SurfaceContact body, const Context& context) {
                             "; along and across the lay they differ",
                         {}),
         std::back_inserter(warnings));
+  require(material || !body.hardness, "hardness",
+          format_quantity(body.hardness.value_or(0), Dimension::pressure),
+          "is for homogeneous half-spaces; leave it out, or give their elastic constants");
   if (body.hardness && body.normal_amplitude > 0)
-    body.hold = detail::hold_of(body.surface, body.material, std::ranges::min(body.pressure),
+    body.hold = detail::hold_of(body.surface, body.body, std::ranges::min(body.pressure),
                                 body.normal_amplitude, body.hold, context.on_progress);
   const std::optional<FirstLoading> first_loading =
-      load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
+      load_first(body.surface, body.hardness, material ? material->contact_modulus : 0, largest,
                  {.on_progress = context.on_progress}, body.normal_amplitude, body.hold);
   std::vector<ForceCurve> curves =
       curves_of_surface(body, pressures_about(body.pressure), directions, context);
@@ -366,7 +380,7 @@ Solutions solutions(SurfaceContact body, const Context& context) {
   Solutions all;
   for (ForceCurve& curve : curves) {
     CurveContact swept{.curve = std::move(curve),
-                       .modulus_ratio = body.material.modulus_ratio(),
+                       .modulus_ratio = body.body.modulus_ratio(),
                        .at = {ControlQuantity::pressure, body.pressure}};
     auto table = law(swept, context);
     auto points = points_on(swept.curve, swept.at, "surface");

@@ -152,11 +152,19 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
   return loads;
 }
 
+/// Why a loss is not stated although its contacts were solved; share: SurfaceDamping::leaving_share.
+std::string leaving(double share) {
+  return fmt::format(
+      "{:.2g} % of the cells leave the contact while the bodies approach, more than the error of "
+      "the loss, which is a sum over contacts that only grow; simulate the cycle directly",
+      100 * share);
+}
+
 /// Replaces the losses that the laws of a surface give by the losses from contacts solved inside the
 /// oscillation, which have a known error. The laws would interpolate between loads. contacts: the
 /// surface in each direction, all cases of which are in `solution`.
 void resolve_on_surface(const DampingProblem& problem, const std::vector<double>& pressures,
-                        const Material& material, const std::vector<ContactSolution>& contacts,
+                        const Body& body, const std::vector<ContactSolution>& contacts,
                         const Context& context, DampingSolution& solution) {
   const Oscillation one = *oscillation_of(problem.motions.front());
   const bool known = why_loss_unknown(problem.motions.front(), problem.parameters).empty();
@@ -170,7 +178,7 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   options.excursion = problem.parameters.excursion;
   options.on_progress = context.on_progress;
   const std::vector<std::vector<SurfaceDamping>> found =
-      surface_damping(*contacts.front().surface, material, one, loads, options);
+      surface_damping(*contacts.front().surface, body, one, loads, options);
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const std::size_t direction = i / pressures.size();
     const double pressure = pressures[i % pressures.size()];
@@ -187,8 +195,13 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
     result.error_estimate = load.work_per_cycle_error();
     result.converged = load.converged;
     result.power = closed_form::power(result.work_per_cycle, one);
+    if (!body.half_space_material()) solution.leaving_share.push_back(load.leaving_share);
     if (!known)
       result.forget();
+    else if (std::isnan(result.work_per_cycle) && load.leaving_share > 0)
+      solution.warnings.push_back(fmt::format("at {} there is no loss, because {}",
+                                              format_quantity(pressure, Dimension::pressure),
+                                              leaving(load.leaving_share)));
     else if (std::isnan(result.work_per_cycle))
       solution.warnings.push_back(
           fmt::format("at {} there is no loss, because its error is larger than the loss; a study "
@@ -225,10 +238,10 @@ Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indenta
 /// oscillation, and the results that follow from γ (decay, amplitude of stable sliding).
 class SurfaceDamper {
  public:
-  SurfaceDamper(const DamperProblem& problem, const Material& material, const Context& context,
+  SurfaceDamper(const DamperProblem& problem, const Body& body, const Context& context,
                 DamperSolution& solution)
       : problem_(problem),
-        material_(material),
+        body_(body),
         solution_(solution),
         about_(*solution.contact.curve) {
     options_ = {.hold = problem.hold,
@@ -307,25 +320,27 @@ class SurfaceDamper {
     return stated(solved({amplitude, 1e-6, 1}, options), amplitude);
   }
 
-  Loss solved(const Drag& drag, const SurfaceDampingOptions& options) const {
-    return surface_damping(*solution_.contact.surface, material_, drag, about_, options)[0];
+  SurfaceDamping solved(const Drag& drag, const SurfaceDampingOptions& options) const {
+    return surface_damping(*solution_.contact.surface, body_, drag, about_, options)[0];
   }
 
   /// Returns the loss if it exceeds its error. Otherwise adds a warning and returns an unknown
   /// loss.
-  Loss stated(Loss loss, double amplitude) {
+  Loss stated(SurfaceDamping loss, double amplitude) {
     loss.drop_uncertain();
     if (!std::isnan(loss.damping_constant)) return loss;
-    solution_.warnings.push_back(
-        fmt::format("at the amplitude {} there is no damping constant, because its error is larger "
-                    "than the constant; use a finer surface",
-                    format_quantity(amplitude, Dimension::length)));
+    solution_.warnings.push_back(fmt::format(
+        "at the amplitude {} there is no damping constant, because {}",
+        format_quantity(amplitude, Dimension::length),
+        loss.leaving_share > 0
+            ? leaving(loss.leaving_share)
+            : "its error is larger than the constant; use a finer surface"));
     loss.forget();
     return loss;
   }
 
   const DamperProblem& problem_;
-  const Material& material_;
+  const Body& body_;
   DamperSolution& solution_;
   ForceCurve about_;  // the curve with only the load of the operating point
   SurfaceDampingOptions options_;
@@ -347,7 +362,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   require_that(!problem.motions.empty(), "motions", "not given; give one");
   auto* surface = std::get_if<SurfaceContact>(&problem.contact);
   std::vector<double> pressures;
-  Material material;
+  std::optional<Body> body;
   if (surface) {
     require_motion_of_surface(problem);
     surface->normal_amplitude =
@@ -356,7 +371,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
             : std::visit([](const auto& m) { return m.normal_amplitude; }, problem.motions.front());
     surface->hold = problem.hold;
     pressures = surface->pressure;
-    material = surface->material;
+    body = surface->body;
   }
   std::vector<ContactSolution> contacts = solve_directions(std::move(problem.contact), context);
   const std::vector<Case> cases = cases_of(contacts.front().points, problem);
@@ -374,7 +389,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     solution.warnings.push_back(*warning);
   // Why a loss is unknown, or was dropped; the first reason found serves all cases.
   std::string unknown, dropped;
-  if (surface) resolve_on_surface(problem, pressures, material, contacts, context, solution);
+  if (surface) resolve_on_surface(problem, pressures, *body, contacts, context, solution);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const ContactSolution& contact = contacts[i / cases.size()];
@@ -498,9 +513,9 @@ void fill_map(const DamperProblem& problem, const std::vector<double>& indentati
     }
 }
 
-/// Checks a damper, and passes its largest amplitude to its surface. Returns the material of the
-/// surface.
-Material prepare(DamperProblem& problem) {
+/// Checks a damper, and passes its largest amplitude to its surface. Returns the body under
+/// the surface.
+std::optional<Body> prepare(DamperProblem& problem) {
   const std::vector<double>&amplitudes = problem.normal_amplitude,
         &omega = problem.angular_frequency;
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
@@ -508,17 +523,17 @@ Material prepare(DamperProblem& problem) {
           problem.falling_slope.value_or(0),
           "N s/m is compared with the damping without slip; leave out `friction_coefficient`, or "
           "use steady sliding, whose stability includes slip");
-  Material material;
+  std::optional<Body> body;
   if (auto* surface = std::get_if<SurfaceContact>(&problem.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
     surface->hold = problem.hold;
-    material = surface->material;
+    body = surface->body;
   }
-  return material;
+  return body;
 }
 
 /// Computes the damper of a contact in one direction.
-DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const Material& material,
+DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const std::optional<Body>& body,
                          const Context& context) {
   const std::vector<double>&amplitudes = problem.normal_amplitude,
         &omega = problem.angular_frequency;
@@ -547,7 +562,7 @@ DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const M
   if (const auto warning = detail::warning_of_held_indentation(rested))
     solution.warnings.push_back(*warning);
   std::optional<SurfaceDamper> of_surface;
-  if (solution.contact.surface) of_surface.emplace(problem, material, context, solution);
+  if (solution.contact.surface) of_surface.emplace(problem, *body, context, solution);
   if (!amplitudes.empty())
     solution.map = damper_map(law, point, amplitudes, omega, options);
   else
@@ -576,17 +591,17 @@ DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const M
 }  // namespace
 
 DamperSolution solve(DamperProblem problem, const Context& context) {
-  const Material material = prepare(problem);
+  const std::optional<Body> body = prepare(problem);
   ContactSolution contact = solve(std::move(problem.contact), context);
-  return damper_of(std::move(problem), std::move(contact), material, context);
+  return damper_of(std::move(problem), std::move(contact), body, context);
 }
 
 std::vector<DamperSolution> solve_directions(DamperProblem problem, const Context& context) {
-  const Material material = prepare(problem);
+  const std::optional<Body> body = prepare(problem);
   std::vector<DamperSolution> solutions;
   for (ContactSolution& contact : solve_directions(std::move(problem.contact), context)) {
     DamperProblem one = problem;
-    solutions.push_back(damper_of(std::move(one), std::move(contact), material, context));
+    solutions.push_back(damper_of(std::move(one), std::move(contact), body, context));
   }
   return solutions;
 }

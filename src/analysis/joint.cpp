@@ -23,16 +23,16 @@ void require_converged(const std::vector<JointLoss>& losses, std::string_view wh
 
 /// Simulates every motion again cell by cell, at the same indentation.
 std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surface,
-                                const Material& material, double indentation,
+                                const Body& body, double indentation,
                                 const Context& context) {
-  const PressureFields pressures = boundary_element_pressures(surface, material.contact_modulus);
+  const PressureFields pressures = boundary_element_pressures(surface, body);
   CycleOptions options{.friction_coefficient = problem.parameters.friction_coefficient,
                        .steps = *problem.direct_steps,
                        .max_periods = 20};
   options.on_progress = context.on_progress;
   std::vector<JointLoss> losses;
   for (const TangentialOscillation& motion : problem.motions) {
-    losses.push_back(simulated_joint_loss(pressures, surface.grid, material, indentation,
+    losses.push_back(simulated_joint_loss(pressures, surface.grid, body, indentation,
                                           {motion, problem.normal_amplitude, problem.phase},
                                           options));
     if (context.stopped && context.stopped())
@@ -94,7 +94,7 @@ std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactL
 JointSolution solve(JointProblem problem, const Context& context) {
   require_that(!problem.motions.empty(), "motions", "not given; give one");
   const bool oscillates = problem.normal_amplitude != 0;
-  Material material;
+  std::optional<Body> body;
   auto* surface = std::get_if<SurfaceContact>(&problem.contact);
   require(surface || !problem.direct_steps, "direct_steps", problem.direct_steps.value_or(0),
           "simulates a surface cell by cell; give `surface`");
@@ -105,7 +105,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (surface) {
     surface->normal_amplitude = std::abs(problem.normal_amplitude);
     surface->hold = problem.hold;
-    material = surface->material;
+    body = surface->body;
     if (!std::isnan(area)) ratio = area / surface->surface.grid.area();
     if (ratio != 1) warning = warning_of_area(area, area / ratio);
   } else if (auto* curve = std::get_if<CurveContact>(&problem.contact);
@@ -143,7 +143,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
       for (const TangentialOscillation& motion : problem.motions)
         joint_loss(law, point, motion, friction);
     solution.losses =
-        of_part(surface_joint_loss(*solution.contact.surface, material, sample ? *sample : law,
+        of_part(surface_joint_loss(*solution.contact.surface, *body, sample ? *sample : law,
                                    of_body, of_sample(problem.motions, ratio), friction,
                                    context.on_progress, direction),
                 ratio);
@@ -179,7 +179,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (problem.direct_steps) {
     problem.motions = of_sample(problem.motions, ratio);
     solution.simulated = of_part(
-        simulate(problem, *solution.contact.surface, material, indentation, context), ratio);
+        simulate(problem, *solution.contact.surface, *body, indentation, context), ratio);
   }
   if (problem.angular_frequency > 0)
     for (std::vector<JointLoss>* losses : {&solution.losses, &solution.simulated})

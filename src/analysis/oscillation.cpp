@@ -56,14 +56,21 @@ double tangential_scale(const Oscillation& motion) {
   return std::get<EqualFrequency>(motion).tangential_amplitude;
 }
 
-ContactSets intervals_of(const OscillatingBody& body, const Material& material) {
-  return boundary_element_contact_sets(body.surface, material.contact_modulus,
-                                       {.boundary = body.boundary});
+ContactSets intervals_of(const OscillatingBody& body, const Body& material) {
+  return boundary_element_contact_sets(body.surface, material, {.boundary = body.boundary});
+}
+
+/// Returns the constants of the half-spaces. Throws InvalidInput for another body; field: what needs
+/// them.
+const Material& constants_of(const Body& material, const std::string& field) {
+  require_that(material.half_space_material().has_value(), field,
+               "needs homogeneous half-spaces; leave it out, or give their elastic constants");
+  return *material.half_space_material();
 }
 
 NormalContactState contact_at(const OperatingPoint& position, const OscillatingBody& body,
-                              double contact_modulus, const NormalContactOptions& options) {
-  NormalContactState state = press(body.surface, contact_modulus, position, options);
+                              const Body& material, const NormalContactOptions& options) {
+  NormalContactState state = press(body.surface, material, position, options);
   if (!state.converged())
     throw NotConverged("oscillate: the contact at the mean indentation did not converge");
   return state;
@@ -165,19 +172,19 @@ double OscillationOutcome::balance(const CycleResult& one) const {
   return std::abs(one.work_per_cycle) > uncertain_loss() ? one.balance() : unknown;
 }
 
-double mean_indentation(const OscillatingBody& body, double contact_modulus,
+double mean_indentation(const OscillatingBody& body, const Body& material,
                         const OperatingPoint& point) {
   if (point.control == ControlQuantity::indentation) return point.value;
-  return contact_at(point, body, contact_modulus, {.boundary = body.boundary}).indentation;
+  return contact_at(point, body, material, {.boundary = body.boundary}).indentation;
 }
 
-double mean_indentation(const OscillatingBody& body, double contact_modulus,
+double mean_indentation(const OscillatingBody& body, const Body& material,
                         const OperatingPoint& point, const Oscillation& motion, Hold hold,
                         const Progress& on_progress) {
   const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
   const NormalContactOptions options{.boundary = body.boundary, .on_progress = on_progress};
   const auto at = [&](const OperatingPoint& one) {
-    return contact_at(one, body, contact_modulus, options);
+    return contact_at(one, body, material, options);
   };
   if (hold != Hold::force && point.control == ControlQuantity::indentation) return point.value;
   const NormalContactState rest = at(point);
@@ -193,8 +200,9 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
   };
   for (double share = lowest; share < 1; share *= factor) add(at(at_force(share * rest.force)));
   add(rest);
-  const double full = body.boundary == Boundary::periodic ? detail::full_contact(body.surface)
-                                                          : std::numeric_limits<double>::infinity();
+  const bool closes = body.boundary == Boundary::periodic && !(material.compliance(0).normal > 0);
+  const double full =
+      closes ? detail::full_contact(body.surface) : std::numeric_limits<double>::infinity();
   for (;;) {
     const TabulatedLaw law(curve, 1);
     const double middle = detail::mean_indentation(law, rest.force, amplitude, hold);
@@ -212,13 +220,13 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
 
 void load_plastically(OscillationCase& contact, const OperatingPoint& point, double hardness,
                       const Progress& on_progress) {
-  const double modulus = contact.material.contact_modulus;
+  const double modulus = constants_of(contact.material, "hardness").contact_modulus;
   const NormalContactOptions elastic{.boundary = contact.body.boundary, .on_progress = on_progress};
   NormalContactOptions plastic = elastic;
   plastic.hardness = hardness;
   const double pressure = point.control == ControlQuantity::pressure
                               ? point.value
-                              : contact_at(point, contact.body, modulus, plastic).mean_pressure;
+                              : contact_at(point, contact.body, contact.material, plastic).mean_pressure;
   OscillatingBody residual = contact.body;
   contact.first_loading = load_first(
       residual.surface, hardness, modulus, pressure, elastic,
@@ -226,7 +234,7 @@ void load_plastically(OscillationCase& contact, const OperatingPoint& point, dou
   if (!contact.first_loading->yielded()) return;
   contact.body = std::move(residual);
   contact.indentation =
-      contact_at(at_pressure(pressure), contact.body, modulus, elastic).indentation;
+      contact_at(at_pressure(pressure), contact.body, contact.material, elastic).indentation;
 }
 
 OscillationOutcome oscillation_by_intervals(OscillationCase run, const OscillationRoutes& routes) {
@@ -272,7 +280,7 @@ OscillationOutcome oscillation_by_intervals(OscillationCase run, const Oscillati
     outcome.intervals.force =
         contact.indentation > 0
             ? contact_at(at_indentation(contact.indentation), contact.body,
-                         contact.material.contact_modulus, {.boundary = contact.body.boundary})
+                         contact.material, {.boundary = contact.body.boundary})
                   .force
             : 0;
     outcome.intervals.force_curvature = outcome.intervals.small_amplitude_work = unknown;
@@ -284,11 +292,12 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
                      const CycleRunner& run) {
   const OscillationCase& contact = outcome.run;
   const Surface& surface = contact.body.surface;
-  const Material& material = contact.material;
+  const Body& material = contact.material;
   const NormalContactOptions normal{.boundary = contact.body.boundary};
   outcome.friction_coefficient = routes.cycle.friction_coefficient;
   if (routes.coupled)
-    outcome.dundurs = dundurs_constant(material.contact_modulus, *routes.cycle.coupling_constant);
+    outcome.dundurs = dundurs_constant(constants_of(material, "coupled").contact_modulus,
+                                       *routes.cycle.coupling_constant);
   const Trajectory trajectory = trajectory_of(contact.motion, contact.indentation);
   outcome.cycle = run(routes.cycle, [&](const CycleOptions& options) {
     return simulate_cycle(intervals_of(contact.body, material), surface.grid, material, trajectory,
@@ -296,13 +305,13 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
   });
   if (!routes.frictional || outcome.interrupted()) return;
   const PressureFields intervals =
-      boundary_element_pressures(surface, material.contact_modulus, normal);
+      boundary_element_pressures(surface, material, normal);
   outcome.frictional = run(routes.cycle, [&](const CycleOptions& options) {
     return simulate_frictional_cycle(intervals, surface.grid, material, trajectory, options);
   });
   if (!routes.coupled || outcome.interrupted()) return;
   outcome.coupled = run(routes.cycle, [&](const CycleOptions& options) {
-    return simulate_coupled_cycle(surface, material, trajectory, options, normal);
+    return simulate_coupled_cycle(surface, constants_of(material, "coupled"), trajectory, options, normal);
   });
 }
 
@@ -333,7 +342,7 @@ OscillationLoss loss_of(const OscillationOutcome& outcome) {
 
 ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay_length) {
   require_positive(decay_length, "decay_length");
-  const double modulus_ratio = outcome.run.material.modulus_ratio(),
+  const double modulus_ratio = constants_of(outcome.run.material, "decay_length").modulus_ratio(),
                force = outcome.intervals.force;
   const double small = std::visit(
       [&](const auto& motion) {
@@ -372,16 +381,21 @@ CouplingEffect coupling_effect(const OscillationOutcome& outcome) {
 
 Assumptions assumptions_of(const OscillationOutcome& outcome, ContactParameters parameters) {
   const OscillationCase& run = outcome.run;
-  const ForceCurve& curve = outcome.intervals.curve;
+  ForceCurve curve = outcome.intervals.curve;
   const Grid2D& grid = run.body.surface.grid;
   const double contact = curve.samples.back().contact_area_fraction * grid.area();
   const bool spot = run.body.boundary == Boundary::free;
-  parameters.contact_modulus = run.material.contact_modulus;
+  if (const auto& material = run.material.half_space_material())
+    parameters.contact_modulus = material->contact_modulus;
   parameters.mean_contact_pressure = curve.samples.back().force / contact;
   parameters.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
   parameters.nominal_pressure = outcome.intervals.force / (spot ? contact : grid.area());
   if (run.first_loading && run.first_loading->yielded())
     parameters.first_load = run.first_loading->pressure * grid.area();
+  // The outermost contacts have no tangential solve, and no modulus gives K_t of another body.
+  if (!run.material.half_space_material())
+    std::erase_if(curve.samples,
+                  [](const ForceSample& one) { return std::isnan(one.tangential_stiffness); });
   const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {
     return sample.converged && sample.force > 0;
   });

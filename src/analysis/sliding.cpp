@@ -110,7 +110,7 @@ SlidingSolution solve(const SlidingProblem& asked, const ContactLaw& law,
 }
 
 SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contact,
-                      const Material& material, const Context& context) {
+                      const Body& body, const Context& context) {
   SlidingProblem problem = asked;
   if (contact.surface) problem.hold = contact.hold;
   SlidingSolution solution = solve(problem, *contact.law, contact.points.front());
@@ -125,7 +125,7 @@ SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contac
         .friction_coefficient = problem.friction_coefficient,
         .hold = problem.hold};
     for (const SlidingPoint& point : points) motion.velocities.push_back(point.velocity);
-    const auto found = surface_sliding(*contact.surface, material, *contact.curve, contact.load(),
+    const auto found = surface_sliding(*contact.surface, body, *contact.curve, contact.load(),
                                        motion, context.on_progress);
     for (std::size_t i = 0; i < velocities; ++i) {
       // The assumptions are judged by the law, so the point keeps the mean indentation of the law.

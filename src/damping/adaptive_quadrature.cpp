@@ -26,7 +26,7 @@ void validate(const AdaptiveQuadratureOptions& options) {
 }  // namespace
 
 AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets,
-                                                      const Grid2D& grid, const Material& material,
+                                                      const Grid2D& grid, const Body& body,
                                                       const Oscillation& motion,
                                                       double mean_indentation,
                                                       const AdaptiveQuadratureOptions& options) {
@@ -39,7 +39,7 @@ AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& c
   const auto run = [&] {
     IntervalQuadratureOptions quadrature = options.quadrature;
     quadrature.intervals = result.intervals;
-    result.quadrature = interval_quadrature(contact_sets(result.grid), result.grid, material,
+    result.quadrature = interval_quadrature(contact_sets(result.grid), result.grid, body,
                                             motion, mean_indentation, quadrature);
     result.trials.push_back({result.grid, result.intervals, result.quadrature.work_per_cycle,
                              result.quadrature.stiffness_ratio, result.quadrature.error_estimate});
@@ -81,13 +81,13 @@ AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& c
 }
 
 AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets,
-                                                      const Grid2D& grid, const Material& material,
+                                                      const Grid2D& grid, const Body& body,
                                                       const Oscillation& motion,
                                                       double mean_indentation,
                                                       const AdaptiveQuadratureOptions& options) {
   AdaptiveQuadratureOptions fixed_grid = options;
   fixed_grid.max_points = 1;
-  return adaptive_interval_quadrature([&](const Grid2D&) { return contact_sets; }, grid, material,
+  return adaptive_interval_quadrature([&](const Grid2D&) { return contact_sets; }, grid, body,
                                       motion, mean_indentation, fixed_grid);
 }
 

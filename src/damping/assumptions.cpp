@@ -525,11 +525,11 @@ Assumption detail::plasticity_of(const ContactParameters& parameters, double pea
 namespace {
 
 // drag: true leaves the verdict unknown, because the effect of coupling on a slow drag was never
-// computed.
+// computed; neither was that in a body that is not a half-space.
 Assumption coupling_of(const ContactLaw& law, bool indenter, bool drag,
                        const ContactParameters& parameters) {
   Assumption assumption{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
-  if (drag) return assumption;
+  if (drag || std::isnan(law.modulus_ratio())) return assumption;
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
       std::isnan(parameters.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : parameters.dundurs;
@@ -557,6 +557,8 @@ Assumption inertia_of(const ContactLaw& law, const JudgedMotion& motion, double 
     assumption.needs = "angular_frequency";
     return assumption;
   }
+  // Layers and graded bodies have no one wave speed.
+  if (std::isnan(law.modulus_ratio())) return assumption;
   for (const auto& [value, field] : {std::pair{parameters.density, "density"},
                                      {parameters.contact_modulus, "contact_modulus"},
                                      {parameters.loaded_size, "loaded_size"}})

@@ -367,13 +367,13 @@ NormalContactState solved(NormalContactState state) {
 }
 
 // Force curve with one load, with its tangential stiffness in full stick.
-ForceCurve stuck_at(double pressure, const Surface& surface, const Material& material,
+ForceCurve stuck_at(double pressure, const Surface& surface, const Body& body,
                     double direction, const Progress& on_progress) {
   SweepOptions sweep;
   sweep.stick = true;
   sweep.direction = direction;
   sweep.contact.on_progress = on_progress;
-  ForceCurve curve = sweep_pressures(surface, material, {pressure}, sweep);
+  ForceCurve curve = sweep_pressures(surface, body, {pressure}, sweep);
   if (curve.samples.empty()) throw Interrupted("joint: interrupted");
   if (!curve.samples.front().converged)
     throw NotConverged("joint: a contact of the surface did not converge");
@@ -382,13 +382,12 @@ ForceCurve stuck_at(double pressure, const Surface& surface, const Material& mat
 
 // Loss without slip under a normal oscillation about the indentation at a pressure.
 SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, const Surface& surface,
-                             const Material& material, double direction,
-                             const Progress& on_progress) {
-  const ForceCurve curve = stuck_at(pressure, surface, material, direction, on_progress);
+                             const Body& body, double direction, const Progress& on_progress) {
+  const ForceCurve curve = stuck_at(pressure, surface, body, direction, on_progress);
   SurfaceDampingOptions options;
   options.hold = Hold::indentation;
   options.on_progress = on_progress;
-  SurfaceDamping damping = surface_damping(surface, material, motion, curve, options).front();
+  SurfaceDamping damping = surface_damping(surface, body, motion, curve, options).front();
   if (!damping.converged) throw NotConverged("joint: a contact of the surface did not converge");
   return damping;
 }
@@ -442,7 +441,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   return loss;
 }
 
-std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
+std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& body,
                                           const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
                                           double friction_coefficient, const Progress& on_progress,
@@ -459,17 +458,17 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   // contacts need this tolerance.
   contact.tolerance = 1e-10;
   const auto under = [&](double force) {
-    return solved(press(fine, material.contact_modulus, at_pressure(force / area), contact));
+    return solved(press(fine, body, at_pressure(force / area), contact));
   };
   const auto pressed_to = [&](double spring_depth) {
-    return solved(press(fine, material.contact_modulus, at_indentation(spring_depth), contact));
+    return solved(press(fine, body, at_indentation(spring_depth), contact));
   };
   const double spring_depth = losses.front().indentation;
   const NormalContactState high = under(law.force(spring_depth));
   // Uses K_t/K of one solved contact for all motions: the ratio hardly changes over the depth of
   // slip. The law would only interpolate K and K_t between loads.
   const ForceSample stuck =
-      stuck_at(high.force / area, surface, material, direction, on_progress).samples.front();
+      stuck_at(high.force / area, surface, body, direction, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
   // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
   const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
@@ -506,7 +505,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
                                    .tangential_amplitude = loss.tangential_amplitude,
                                    .phase = pi / 2};
     const SurfaceDamping found =
-        damping_about(pressure, as_normal, surface, material, direction, on_progress);
+        damping_about(pressure, as_normal, surface, body, direction, on_progress);
     loss.work_per_cycle = found.work_per_cycle / 2;
     loss.work_error =
         std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change);
@@ -591,7 +590,7 @@ detail::JointLoop detail::joint_loop(const ContactLaw& law, double indentation,
 }
 
 JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
-                               const Material& material, double indentation,
+                               const Body& body, double indentation,
                                const JointMotion& motion, const CycleOptions& options) {
   check(motion.tangential, options.friction_coefficient);
   require(std::isfinite(options.friction_coefficient), "friction_coefficient",
@@ -605,7 +604,7 @@ JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D&
                                                  motion.normal_amplitude > 0 ? motion.phase : 0},
                                   indentation);
   if (by_force) std::swap(path.tangential, path.tangential_force);
-  const CycleResult cycle = simulate_frictional_cycle(contact_sets, grid, material, path, options);
+  const CycleResult cycle = simulate_frictional_cycle(contact_sets, grid, body, path, options);
 
   JointLoss loss;
   loss.indentation = indentation;

@@ -95,13 +95,13 @@ class SlidingBody : public detail::CycleBody {
 
 class FrictionalBody : public SlidingBody {
  public:
-  FrictionalBody(const PressureFields& contact_sets, const Grid2D& grid, const Material& material,
+  FrictionalBody(const PressureFields& contact_sets, const Grid2D& grid, const Body& body,
                  const Trajectory& trajectory, const CycleOptions& options,
                  const detail::TrajectoryRange& range)
       : SlidingBody(trajectory, options),
         pressures_(contact_sets, grid, trajectory, options.steps, 1e-9 * range.sweep()),
         // motion_scale must be positive; without tangential motion its value has no effect.
-        contact_(grid, material,
+        contact_(grid, body,
                  {.friction_coefficient = options.friction_coefficient,
                   .motion_scale = range.tangential() > 0 ? range.tangential() : 1.0,
                   .stick = options.stick}) {
@@ -152,10 +152,10 @@ class FrictionalBody : public SlidingBody {
 // A body whose tangential force is given at each step; its displacement is computed.
 class ForcedBody final : public FrictionalBody {
  public:
-  ForcedBody(const PressureFields& contact_sets, const Grid2D& grid, const Material& material,
+  ForcedBody(const PressureFields& contact_sets, const Grid2D& grid, const Body& body,
              const Trajectory& at_rest, const std::function<double(double t)>& force,
              const CycleOptions& options, const detail::TrajectoryRange& range)
-      : FrictionalBody(contact_sets, grid, material, at_rest, options, range) {
+      : FrictionalBody(contact_sets, grid, body, at_rest, options, range) {
     double greatest = 0;
     for (int k = 0; k <= options.steps; ++k) {
       forces_.push_back(force(time(k)));
@@ -169,7 +169,7 @@ class ForcedBody final : public FrictionalBody {
     }
     require_positive(greatest, "tangential_force");
     const StickStiffness stiffness = stick_stiffness(
-        pressure_at(0).contact_pressure > 0, grid, material, options.stick, /*along_x_only=*/true);
+        pressure_at(0).contact_pressure > 0, grid, body, options.stick, /*along_x_only=*/true);
     termination_ = stiffness.termination;
     stiffness_ = stiffness.xx;
     tolerance_ = 1e-7 * greatest;
@@ -264,33 +264,38 @@ class CoupledBody final : public SlidingBody {
 
 }  // namespace
 
-PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
+PressureFields boundary_element_pressures(Surface surface, const Body& body,
                                           const NormalContactOptions& options) {
   surface.require_whole("an oscillating contact");
-  return [surface = std::move(surface), contact_modulus, options](double indentation) {
+  return [surface = std::move(surface), body, options](double indentation) {
     if (indentation <= 0)
       return PressureAt{.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
-    NormalContactState state =
-        press(surface, contact_modulus, at_indentation(indentation), options);
+    NormalContactState state = press(surface, body, at_indentation(indentation), options);
     return PressureAt{std::move(state.contact_pressure), state.force, state.converged()};
   };
 }
 
+PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
+                                          const NormalContactOptions& options) {
+  return boundary_element_pressures(std::move(surface),
+                                    Material::of_contact_modulus(contact_modulus), options);
+}
+
 CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const Grid2D& grid,
-                                      const Material& material, const Trajectory& trajectory,
+                                      const Body& body, const Trajectory& trajectory,
                                       const CycleOptions& options) {
   grid.validate();
   if (trajectory.tangential_force && !trajectory.tangential) {
     require_positive(options.friction_coefficient, "friction_coefficient");
     const Trajectory at_rest{trajectory.indentation, [](double) { return 0.0; }};
     const detail::TrajectoryRange range = detail::checked_range(at_rest, options);
-    ForcedBody body(contact_sets, grid, material, at_rest, trajectory.tangential_force, options,
+    ForcedBody cycle(contact_sets, grid, body, at_rest, trajectory.tangential_force, options,
                     range);
-    return detail::run_cycle(body, grid, at_rest, options);
+    return detail::run_cycle(cycle, grid, at_rest, options);
   }
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
-  FrictionalBody body(contact_sets, grid, material, trajectory, options, range);
-  return detail::run_cycle(body, grid, trajectory, options);
+  FrictionalBody cycle(contact_sets, grid, body, trajectory, options, range);
+  return detail::run_cycle(cycle, grid, trajectory, options);
 }
 
 CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,

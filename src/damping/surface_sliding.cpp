@@ -120,17 +120,17 @@ struct OnGrid {
 
 class SurfaceSlidingRun {
  public:
-  SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
+  SurfaceSlidingRun(const Body& body, const ForceSample& load, const StiffnessRatio& ratio,
                     const SurfaceSlidingMotion& motion, Hold hold)
-      : material_(material),
+      : body_(body),
         load_(load),
         ratio_(ratio),
         motion_(motion),
         hold_(hold),
         oscillation_(Drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency}),
-        wide_(material, oscillation_, options_, hold, direction_of(load),
+        wide_(body, oscillation_, options_, hold, direction_of(load),
               {{load.pressure, load.force}},
-              detail::RatioOfLoads({detail::point_of(load, material.modulus_ratio())})) {
+              detail::RatioOfLoads({detail::point_of(load, detail::modulus_ratio_of(body))})) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
 
@@ -143,7 +143,7 @@ class SurfaceSlidingRun {
     contact.tolerance =
         std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
     const double direction = direction_of(load_);
-    SurfaceContacts contacts_at(surface, material_, contact, direction == 0);
+    SurfaceContacts contacts_at(surface, body_, contact, direction == 0);
     const double center = contacts_at.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
         first ? ratio_
@@ -201,7 +201,7 @@ class SurfaceSlidingRun {
     if (contacts.empty()) throw NotConverged("sliding: a contact of the surface did not converge");
     const auto states = [&](const std::vector<StiffnessSample>& some,
                             const detail::RatioOfLoads& ratio, detail::BelowTable below) {
-      const detail::SurfaceLaw law(some, ratio, material_.modulus_ratio());
+      const detail::SurfaceLaw law(some, ratio, detail::modulus_ratio_of(body_));
       const detail::ContinuedLaw continued(law, below);
       return states_of(continued, at_force(load_.force));
     };
@@ -213,7 +213,7 @@ class SurfaceSlidingRun {
       return (numbers_of(other) - grid.numbers).square();
     };
     // The numbers depend most on K at the smallest indentation, where springs begin to slide.
-    const detail::SurfaceLaw law(contacts, wide_.ratio(), material_.modulus_ratio());
+    const detail::SurfaceLaw law(contacts, wide_.ratio(), detail::modulus_ratio_of(body_));
     const double least =
         detail::mean_indentation(law, load_.force, motion_.normal.normal_amplitude, hold_) -
         motion_.normal.normal_amplitude;
@@ -237,7 +237,7 @@ class SurfaceSlidingRun {
 
   std::vector<SteadySliding> states_of(const VectorXd& positions, const VectorXd& stiffness,
                                        const StiffnessRatio& ratio) const {
-    const StiffnessLaw law(positions, stiffness, load_.force, ratio, material_.modulus_ratio());
+    const StiffnessLaw law(positions, stiffness, load_.force, ratio, detail::modulus_ratio_of(body_));
     const OperatingPoint point = hold_ == Hold::indentation
                                      ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);
@@ -249,7 +249,7 @@ class SurfaceSlidingRun {
                           motion_.friction_coefficient, {.hold = hold_, .tolerance = 1e-7});
   }
 
-  const Material& material_;
+  const Body& body_;
   const ForceSample& load_;
   StiffnessRatio ratio_;
   const SurfaceSlidingMotion& motion_;
@@ -264,16 +264,16 @@ class SurfaceSlidingRun {
 }  // namespace
 
 std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
-    const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,
+    const Surface& surface, const Body& body, const ForceCurve& curve, std::size_t load,
     const SurfaceSlidingMotion& motion, const Progress& on_progress) {
   require(load < curve.samples.size(), "load", load, "is not in the curve");
   require_positive(motion.normal.normal_amplitude, "normal_amplitude");
   const ForceSample& sample = curve.samples[load];
-  const StiffnessRatio ratio = detail::ratio_on(curve, load, material.modulus_ratio());
+  const StiffnessRatio ratio = detail::ratio_on(curve, load, detail::modulus_ratio_of(body));
   ForceCurve about = curve;
   about.samples = {sample};
   const Hold hold = detail::hold_of(about, motion.normal.normal_amplitude, motion.hold);
-  SurfaceSlidingRun run(material, sample, ratio, motion, hold);
+  SurfaceSlidingRun run(body, sample, ratio, motion, hold);
   const OnGrid own = run.on(surface, own_intervals, true, on_progress);
   OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
   // The error by the cells is of second order: a third of the change remains on the finer cells.
@@ -283,7 +283,7 @@ std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
   SurfaceDampingOptions options{.hold = hold, .on_progress = on_progress};
   // The ratio K_t/K of this curve comes from contacts inside the oscillation.
   const Drag drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency};
-  const SurfaceDamping stuck = surface_damping(surface, material, drag, about, options)[0];
+  const SurfaceDamping stuck = surface_damping(surface, body, drag, about, options)[0];
 
   std::vector<std::pair<SteadySliding, SlidingErrors>> all;
   Index at = 0;

@@ -92,8 +92,10 @@ void add_references(const StudyResult& result, Panels& panels) {
   edge.style = Style::dotted;
   edge.color = 0;
   areas.curves.push_back(std::move(edge));
-  if (!ratios.curves.empty())
-    ratios.lines = {{.at = result.configuration.material.modulus_ratio(),
+  // A body that is not a half-space has no ratio of moduli.
+  const double modulus_ratio = result.configuration.pressed().modulus_ratio();
+  if (!ratios.curves.empty() && std::isfinite(modulus_ratio))
+    ratios.lines = {{.at = modulus_ratio,
                      .name = "G^{*}/E^{*}",
                      .quantity = "modulus_ratio"}};
   const EnsembleMean length = result.decay_length();

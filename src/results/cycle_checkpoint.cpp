@@ -11,6 +11,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
@@ -193,7 +194,7 @@ constexpr std::array kinds{"stuck", "frictional", "coupled"};
 
 }  // namespace
 
-CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+CycleSettings cycle_settings(const Grid2D& grid, const Body& body,
                              const Oscillation& motion, double mean_indentation,
                              const CycleOptions& options) {
   CycleSettings settings{{"arithmetic", arithmetic()}};
@@ -204,9 +205,21 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
   add("ny", static_cast<double>(grid.ny));
   add("size_x", grid.lx);
   add("size_y", grid.ly);
-  add("contact_modulus", material.contact_modulus);
-  add("cerruti_isotropic", material.cerruti_isotropic);
-  add("cerruti_directed", material.cerruti_directed);
+  if (const auto& material = body.half_space_material()) {
+    add("contact_modulus", material->contact_modulus);
+    add("cerruti_isotropic", material->cerruti_isotropic);
+    add("cerruti_directed", material->cerruti_directed);
+  } else {
+    // Two bodies that respond alike to the longest wave and to the shortest along x are taken for
+    // one.
+    settings.emplace_back("datum", name_of(body.datum()));
+    for (const double wavelength : {grid.lx, 2 * grid.dx()}) {
+      const SurfaceCompliance response = body.compliance(2 * std::numbers::pi / wavelength);
+      add("normal_compliance", response.normal);
+      add("in_plane_compliance", response.in_plane);
+      add("across_compliance", response.across);
+    }
+  }
   add("indentation", mean_indentation);
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     add("normal_amplitude", drag->normal_amplitude);

@@ -21,7 +21,7 @@ std::string fingerprint(const Field& values);
 
 /// The settings of a cycle except those that describe its contact. The caller adds these, for
 /// example the fingerprint of the heights.
-CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+CycleSettings cycle_settings(const Grid2D& grid, const Body& body,
                              const Oscillation& motion, double mean_indentation,
                              const CycleOptions& options);
 

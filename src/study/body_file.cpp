@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "body_table.hpp"
 #include "io/input_file.hpp"
 #include "toml_reader.hpp"
 
@@ -54,11 +55,7 @@ Body read_anisotropic(TomlTable table) {
   return table.located([&] { return Body::transversely_isotropic(stiffness); });
 }
 
-}  // namespace
-
-Body read_body(const std::filesystem::path& file) {
-  constexpr std::uint64_t most = 4 << 20;
-  TomlTable root = TomlTable::parse(detail::InputFile(file).content(most), file.string());
+Body read_table(TomlTable& root) {
   const auto chosen = root.choice("datum", names_of<Datum>());
   const Datum datum = chosen ? EnumNames<Datum>::values[*chosen].first : Datum::mean_plane;
   const bool layered = root.has("layer") || root.has("base");
@@ -74,6 +71,21 @@ Body read_body(const std::filesystem::path& file) {
                                   : read_layers(root, root.tables("layer"));
   root.require_no_other_keys();
   return root.located([&] { return body.measured_from(datum); });
+}
+
+}  // namespace
+
+Body read_body(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = 4 << 20;
+  TomlTable root = TomlTable::parse(detail::InputFile(file).content(most), file.string());
+  return read_table(root);
+}
+
+Body detail::read_body_table(TomlTable& table, const std::filesystem::path& folder) {
+  const auto file = table.text("file");
+  if (!file) return read_table(table);
+  table.require_no_other_keys();
+  return table.located([&] { return read_body(folder / *file); });
 }
 
 }  // namespace salebra

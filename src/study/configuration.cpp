@@ -17,6 +17,7 @@
 #include "io/input_file.hpp"
 #include "io/number_table.hpp"
 #include "surface_table.hpp"
+#include "body_table.hpp"
 #include "toml_reader.hpp"
 
 namespace salebra {
@@ -275,10 +276,15 @@ double read_fact(TomlTable& table, const char* key, Dimension dimension) {
   return *value;
 }
 
-Material read_material(TomlTable table, ContactParameters& known) {
+Material read_material(TomlTable table, ContactParameters& known, bool moduli) {
   known.friction_coefficient = read_fact(table, "friction_coefficient", Dimension::dimensionless);
   known.hardness = read_fact(table, "hardness", Dimension::pressure);
   known.density = read_fact(table, "density", Dimension::mass_density);
+  // With a [body] every modulus is a key that nobody reads.
+  if (!moduli) {
+    table.require_no_other_keys();
+    return {};
+  }
   const auto young = table.values("young", Dimension::pressure);
   const auto poisson = table.values("poisson", Dimension::dimensionless);
   const auto modulus = table.quantity("contact_modulus", Dimension::pressure);
@@ -494,7 +500,7 @@ StudyConfiguration parse(const std::string& text, const std::string& name,
   TomlTable root = TomlTable::parse(text, name);
   // Reports a misspelt name of a table as such, before its keys are found to be missing.
   for (const char* table : {"surface", "ensemble", "material", "conduction", "contact", "adhesion",
-                            "fit", "damping", "compare"})
+                            "fit", "damping", "compare", "body"})
     root.table(table);
   root.require_no_other_keys();
   StudyConfiguration configuration;
@@ -517,7 +523,11 @@ StudyConfiguration parse(const std::string& text, const std::string& name,
     surface->require_no_other_keys();
   }
   if (ensemble) ensemble->located([&] { parameter_combinations(configuration); });
-  configuration.material = read_material(root.required_table("material"), configuration.known);
+  if (auto body = root.table("body")) configuration.body = detail::read_body_table(*body, folder);
+  if (!configuration.body || root.has("material"))
+    configuration.material = read_material(root.required_table("material"), configuration.known,
+                                           /*moduli=*/!configuration.body);
+  if (configuration.body) configuration.models = {ContactModel::bem};
   if (auto conduction = root.table("conduction")) read_conduction(*conduction, configuration);
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);

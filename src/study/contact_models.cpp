@@ -119,7 +119,7 @@ ModelResult boundary_elements(ModelWork& work) {
     realisation.picture.add_contact(std::int16_t(k), state, surface);
   };
   if (work.configuration.adhesion) return adhesive_elements(work, sweep);
-  std::vector<ForceCurve> curves = sweep_directions(surface, work.configuration.material,
+  std::vector<ForceCurve> curves = sweep_directions(surface, work.configuration.pressed(),
                                                     work.pressures, work.directions, sweep);
   for (std::size_t k = 1; k < curves.size(); ++k)
     realisation.other_directions.push_back(

@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/row_partition.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
@@ -59,10 +60,10 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
 
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
-  const double modulus_ratio = configuration.material.modulus_ratio();
+  const double modulus_ratio = configuration.pressed().modulus_ratio();
   const bool adhesive = configuration.adhesion.has_value();
   std::optional<ExponentialLaw> fitted_law;
-  if (std::isfinite(model.fit.decay_length))
+  if (std::isfinite(model.fit.decay_length) && std::isfinite(modulus_ratio))
     fitted_law.emplace(1, model.fit.decay_length, modulus_ratio);
   std::optional<TabulatedLaw> curve_law;
   try {
@@ -129,7 +130,7 @@ void resolve_damping(const std::vector<ModelResult*>& results, const Surface& su
   std::vector<ForceCurve> curves;
   for (const ModelResult* result : results) curves.push_back(result->curve);
   const std::vector<std::vector<SurfaceDamping>> resolved =
-      surface_damping(surface, configuration.material, configuration.motion, curves, options);
+      surface_damping(surface, configuration.pressed(), configuration.motion, curves, options);
   // In a mean over surfaces large errors average out. A study of a single surface drops a loss that
   // does not exceed its error.
   const bool alone = detail::seeds_of(configuration).size() == 1;
@@ -227,7 +228,7 @@ void analyse(ModelResult& result, const StudyConfiguration& configuration, doubl
 }  // namespace
 
 bool stick_solves(const StudyConfiguration& configuration) {
-  return configuration.stick && std::isfinite(configuration.material.cerruti_isotropic);
+  return configuration.body || (configuration.stick && std::isfinite(configuration.material.cerruti_isotropic));
 }
 
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
@@ -281,7 +282,7 @@ Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
   if (configuration.damping.hold == Hold::automatic &&
       (configuration.adhesion || configuration.damping.amplitude == Amplitude::small))
     return Hold::indentation;
-  return detail::hold_of(surface, configuration.material, lowest_pressure,
+  return detail::hold_of(surface, configuration.pressed(), lowest_pressure,
                          detail::normal_amplitude(configuration.motion), configuration.damping.hold,
                          progress);
 }
@@ -312,7 +313,10 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
   realisation.seed = seed;
   if (configuration.has(ContactModel::gw_deterministic))
     summits = detail::gathered(std::move(summits), surface.grid);
-  const double scale = configuration.material.contact_modulus * realisation.moments.rms_slope();
+  const double scale =
+      configuration.body
+          ? pressure_scale(surface, *configuration.body)
+          : configuration.material.contact_modulus * realisation.moments.rms_slope();
   if (wants_picture(configuration, seed)) {
     realisation.picture = picture_of(surface, configuration);
     realisation.picture.mapped_load = Index(pressures.size() / 2);

@@ -2,7 +2,9 @@
 // Binary record of a realisation, with its key and a checksum.
 #include "realisation_record.hpp"
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 
@@ -20,6 +22,17 @@ constexpr std::string_view magic = "salebra realisation 15\n";
 /// Checksum of a file; 0 if the file does not exist.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
+}
+
+/// Responses of a body to waves from 1 nm to 10 m, by which it is recognised.
+std::vector<double> responses_of(const Body& body) {
+  std::vector<double> responses{double(body.datum())};
+  for (int k = 0; k <= 40; ++k) {
+    const SurfaceCompliance one = body.compliance(2e9 * std::numbers::pi * std::pow(10, -k / 4.0));
+    for (const double response : {one.normal, one.in_plane, one.across})
+      responses.push_back(response);
+  }
+  return responses;
 }
 
 std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {
@@ -46,13 +59,14 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
   // study of one surface drops uncertain losses, and the first of several surfaces computes the
   // numerical error for all.
   bytes +=
-      bytes_of(point.material, point.pressures, point.relative_pressures, point.tolerance,
+      bytes_of(point.body ? Material{} : point.material, point.pressures, point.relative_pressures, point.tolerance,
                point.stick, point.flow_factors, point.window, point.models, point.adhesion,
                point.known.hardness, point.known.friction_coefficient, point.known.excursion,
                point.motion, point.damping.hold, point.damping.amplitude, point.damping.tolerance,
                point.intervals, point.relative_error, point.seam, point.direction.index(),
                std::visit([](auto value) { return static_cast<double>(value); }, point.direction),
                seeds_of(point).size() == 1, seed == seeds_of(point).front());
+  if (point.body) bytes += bytes_of(responses_of(*point.body));
   return Checksum(bytes).value();
 }
 

@@ -230,7 +230,7 @@ ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& sha
                        const StudyRun& run) {
   require_that(run.parts != nullptr, "parts",
                "not given; a shard needs the folder that it shares with the others");
-  configuration.material.modulus_ratio();
+  configuration.pressed().modulus_ratio();
   const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   if (run.parts->count() > 0) detail::require_some_of(*run.parts, points);
   return ShardRun(points, shard, run).run();

@@ -232,7 +232,7 @@ void warn_of_ensemble(StudyResult& result) {
 
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run) {
-  configuration.material.modulus_ratio();
+  configuration.pressed().modulus_ratio();
   const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   RealisationReport report{.points = points.size()};
   for (const StudyConfiguration& point : points) {
@@ -254,6 +254,8 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
       result.grid = recipe->grid;
     StudyLoads loads = study_loads(point, run.groups.own());
     result.contact_scale = loads.contact_scale;
+    if (point.body)
+      result.configuration.material = Material::of_contact_modulus(loads.contact_modulus);
     result.pressures = std::move(loads.pressures);
     result.warnings = std::move(loads.warnings);
     if (run.on_warning) std::ranges::for_each(result.warnings, run.on_warning);

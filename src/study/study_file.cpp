@@ -249,8 +249,10 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("mode",
                   std::holds_alternative<Drag>(configuration.motion) ? "drag" : "equal-frequency");
   group.attribute("hold", std::string(name_of(configuration.hold())));
-  group.attribute("modulus_ratio", configuration.material.modulus_ratio());
+  group.attribute("modulus_ratio", configuration.pressed().modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
+  if (configuration.body)
+    group.attribute("datum", std::string(name_of(configuration.body->datum())));
   if (const double friction = configuration.known.friction_coefficient; !std::isnan(friction))
     group.attribute("friction_coefficient", friction);
 }

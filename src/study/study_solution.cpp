@@ -97,7 +97,7 @@ StudySolution solution_of(const StudyResult& result) {
   if (solution.slips()) set_shares(solution, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
-    const TabulatedLaw law(curve, configuration.material.modulus_ratio());
+    const TabulatedLaw law(curve, configuration.pressed().modulus_ratio());
     const ContactParameters known = parameters_of(result);
     const double amplitude = detail::normal_amplitude(configuration.motion);
     const auto possible = result.damping(&DampingPoint::possible_amplitude),

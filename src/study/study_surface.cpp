@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
@@ -128,6 +129,26 @@ void warn_of_lay(const SurfaceLay& lay, double skewness, const StudyConfiguratio
       std::back_inserter(loads.warnings));
 }
 
+/// E* of the half-spaces, or pressure_scale()/h' of the first surface on another body. Throws
+/// InvalidInput for what is not computed on such a body. slope: h' of loads.
+double modulus_of(const StudyConfiguration& configuration, double slope,
+                  const Communicator& communicator) {
+  if (!configuration.body) return configuration.material.contact_modulus;
+  const Conduction& conduction = configuration.conduction;
+  for (const auto& [given, what] :
+       {std::pair{configuration.models != std::vector{ContactModel::bem}, "the models of summits"},
+        {configuration.adhesion.has_value(), "adhesion"},
+        {!conduction.conductivity.empty() || !conduction.resistivity.empty(), "conductance"},
+        {!std::isnan(configuration.known.hardness), "a `hardness`"},
+        {!configuration.stick, "tangential stiffness in proportion to K"}})
+    require(!given, "body", what,
+            "is computed for homogeneous half-spaces; leave it out, or give their elastic "
+            "constants");
+  const Surface first =
+      study_surface(configuration, detail::seeds_of(configuration).front(), {}, communicator);
+  return pressure_scale(first, *configuration.body) / slope;
+}
+
 }  // namespace
 
 double detail::lay_angle_of(const StudyConfiguration& configuration, const Surface& surface) {
@@ -165,7 +186,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     grid = surface.grid;
     warn_of_lay(surface_lay(surface), significant_skewness(surface), configuration, loads);
   }
-  const double modulus = configuration.material.contact_modulus;
+  const double modulus = modulus_of(configuration, slope, communicator);
   const bool adhesive = configuration.adhesion.has_value();
   require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
           "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
@@ -178,6 +199,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
             warning_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
       loads.warnings.push_back(*coarse);
   loads.contact_scale = modulus * slope;
+  loads.contact_modulus = modulus;
   if (configuration.relative_pressures)
     for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
   // Relative pressures are too large if the slope is too large; then the warning about the slope is

@@ -88,7 +88,7 @@ TEST_CASE("A curve and moduli that do not fit it are doubted", "[analysis]") {
 TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[analysis]") {
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   const SurfaceContact surface{
-      .surface = paraboloid_surface(grid, 1e-2), .material = body, .pressure = {1e3}};
+      .surface = paraboloid_surface(grid, 1e-2), .body = body, .pressure = {1e3}};
   const ContactSolution cells = solve(surface);
   REQUIRE(cells.curve);
   // Thirteen contacts are solved around the pressure, which is one of them.
@@ -115,7 +115,7 @@ TEST_CASE("A pressure of full contact is named, and loads of full contact make n
   const double closing = std::numbers::pi * 1e-3;
   const auto solved = [&](double share) {
     return solve(SurfaceContact{.surface = {grid, heights, true, "wave"},
-                                .material = Material::of_contact_modulus(1, 0.3),
+                                .body = Material::of_contact_modulus(1, 0.3),
                                 .pressure = {0.5 * closing, share * closing}});
   };
   CHECK_THROWS_WITH(solved(1.5), Catch::Contains("pressure: ") && Catch::Contains("full contact"));

@@ -6,7 +6,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
@@ -52,7 +52,7 @@ struct IndenterContact {
 /// contains.
 struct CurveContact {
   ForceCurve curve;
-  double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t
+  double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t; NaN: not known
   OperatingPoints at;
   std::string source = {};  ///< name of the curve in messages, e.g. its file
   /// Which of the directions of its K_t to use: an angle, or `automatic` for all of them.
@@ -63,10 +63,10 @@ struct CurveContact {
 /// further loads as far as the oscillation presses or lifts it.
 struct SurfaceContact {
   Surface surface;
-  Material material;
+  Body body;  ///< a Material, or any Body under a periodic surface
   std::vector<double> pressure = {};  ///< nominal pressures, Pa
   /// Hardness, Pa, for a plastic first loading up to the largest pressure plus an oscillation about
-  /// it. Empty: elastic.
+  /// it, of half-spaces only. Empty: elastic.
   std::optional<double> hardness = {};
   double normal_amplitude = 0;  ///< amplitude of the oscillation about each pressure, m
   Hold hold = Hold::automatic;  ///< the mean value that this oscillation keeps
@@ -117,7 +117,7 @@ ContactSolution solve(ContactProblem problem, const Context& context = {});
 /// The same in each direction of the tangential motion that the problem asks for: one solution for
 /// each, `across` before `along`. Contacts are solved once for all directions.
 ///     std::vector<ContactSolution> contacts = solve_directions(
-///         SurfaceContact{.surface = surface, .material = material, .pressure = {1e6},
+///         SurfaceContact{.surface = surface, .body = material, .pressure = {1e6},
 ///                        .direction = LayDirection::both});
 std::vector<ContactSolution> solve_directions(ContactProblem problem, const Context& context = {});
 

@@ -60,6 +60,8 @@ struct DampingSolution {
   /// For a Drag with a known excursion X: loss on one path there and back, W·2X/w, J, with the
   /// distance per normal cycle w = 2πv/ω.
   std::vector<double> work_there_and_back = {};
+  /// For a body that is not a half-space: SurfaceDamping::leaving_share.
+  std::vector<double> leaving_share = {};
   std::vector<Assumptions> assumptions = {};
   std::vector<std::string> warnings = {};  ///< additional to contact.warnings
 
@@ -75,6 +77,9 @@ constexpr void describe(auto&& visit, std::type_identity<DampingSolution>) {
   visit(&S::work_there_and_back,
         Quantity{"work_there_and_back", energy,
                  "energy dissipated on the way there and back over the excursion"});
+  visit(&S::leaving_share,
+        Quantity{"leaving_share", dimensionless,
+                 "cells that leave while the bodies approach over those that enter"});
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
   visit(&S::periods, Table{"periods", "common periods of two frequencies"});
   visit(&S::slow_limit_power, Quantity{"slow_limit_power", Dimension::power,

@@ -34,20 +34,20 @@ OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid);
 /// One contact, with its material, motion and mean indentation.
 struct OscillationCase {
   OscillatingBody body;
-  Material material;
+  Body material = Material{};  ///< a Material, or any Body under a periodic surface
   Oscillation motion;
   double indentation = 0;                          ///< mean indentation, m
   std::optional<FirstLoading> first_loading = {};  ///< empty without plastic first loading
 };
 
 /// Returns the indentation of a body at an operating point, m. Throws NotConverged.
-double mean_indentation(const OscillatingBody& body, double contact_modulus,
+double mean_indentation(const OscillatingBody& body, const Body& material,
                         const OperatingPoint& point);
 /// Returns the mean indentation of an oscillation about an operating point, m: that at rest, or that
 /// at which the mean force of the cycle is the force at rest (hold_of()). The latter comes from a law
 /// through contacts from 1 % of this force to the largest force of the cycle.
 /// throws  InvalidInput for a cycle beyond full contact; NotConverged, Interrupted
-double mean_indentation(const OscillatingBody& body, double contact_modulus,
+double mean_indentation(const OscillatingBody& body, const Body& material,
                         const OperatingPoint& point, const Oscillation& motion, Hold hold,
                         const Progress& on_progress = {});
 

@@ -45,10 +45,10 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
 /// Computes steady sliding at the first operating point of a contact. For a surface each
 /// SlidingPoint comes from contacts solved inside the oscillation, with errors (surface_sliding());
 /// the regime map always comes from the law.
-/// material  material of a surface; not used for other contacts
+/// body      body under a surface; not used for other contacts
 /// throws    NotConverged, Interrupted
 SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
-                      const Material& material, const Context& context = {});
+                      const Body& body, const Context& context = {});
 
 /// The final motion of a slider, its stability, and the threshold of the oscillation.
 struct SliderProblem {

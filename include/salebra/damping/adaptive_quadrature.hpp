@@ -59,18 +59,18 @@ struct AdaptiveQuadratureResult {
 /// more when they were last refined. The contact area grows by whole cells, so the loss is not a
 /// smooth function of the cell size: its last change is taken as the error, without extrapolation.
 ///
-///     auto loss = adaptive_interval_quadrature(contacts, grid, material, motion, 1e-8);
+///     auto loss = adaptive_interval_quadrature(contacts, grid, body, motion, 1e-8);
 ///
 /// cost  that of the last quadrature, and about as much again for all earlier quadratures
 AdaptiveQuadratureResult adaptive_interval_quadrature(
-    const ContactSetsOnGrid& contact_sets, const Grid2D& grid, const Material& material,
+    const ContactSetsOnGrid& contact_sets, const Grid2D& grid, const Body& body,
     const Oscillation& motion, double mean_indentation,
     const AdaptiveQuadratureOptions& options = {});
 
 /// Runs adaptive interval quadrature on a grid that cannot be refined, such as that of a measured
 /// surface: only the number of intervals is chosen.
 AdaptiveQuadratureResult adaptive_interval_quadrature(
-    const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+    const ContactSets& contact_sets, const Grid2D& grid, const Body& body,
     const Oscillation& motion, double mean_indentation,
     const AdaptiveQuadratureOptions& options = {});
 

@@ -44,6 +44,8 @@ using PressureFields = std::function<PressureAt(double indentation)>;
 /// keeps a copy of the surface.
 ContactSets boundary_element_contact_sets(Surface surface, const Body& body,
                                           const NormalContactOptions& options = {});
+PressureFields boundary_element_pressures(Surface surface, const Body& body,
+                                          const NormalContactOptions& options = {});
 /// On a half-space.
 ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options = {});
@@ -324,10 +326,11 @@ CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid, 
 /// prescribed tangential force is reached to 1e-7 of its largest value, by a secant search at each
 /// step. Throws InvalidInput where that force is not below μF, because the contact slides as a
 /// whole.
+/// body  a Material, or any Body, which must be under a periodic surface
 /// cost  per step a partial-slip solve, and a second one if cells enter; four to six times as much
 ///       for a prescribed tangential force
 CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const Grid2D& grid,
-                                      const Material& material, const Trajectory& trajectory,
+                                      const Body& body, const Trajectory& trajectory,
                                       const CycleOptions& options = {});
 
 /// Simulates a cycle with the coupling of normal and tangential directions (Dundurs' β): in each

@@ -136,13 +136,14 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
 /// contacts: U = ∫F dδ is the elastic energy, here on cells of half the size, and work_error is the
 /// difference from the U of the law. (joint_loss() for a law whose loads are farther apart than c interpolates within the
 /// range of slip and states no error.)
-/// law      a law through a force curve of this surface and material that contains `point`
+/// body     a Material, or any Body under a periodic surface
+/// law      a law through a force curve of this surface and body that contains `point`
 /// direction  of the tangential motion and of the K_t of the law, from the x axis, rad
 /// throws   NotConverged if a contact did not converge; Interrupted; InvalidInput wherever
 ///          joint_loss() throws it
 /// cost     for each motion some nine contacts on the given cells and three on cells of half the
 ///          size
-std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
+std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& body,
                                           const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
                                           double friction_coefficient,
@@ -177,7 +178,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
 /// converged  in the result: every solve converged, and the loss is steady
 /// throws     InvalidInput wherever joint_loss() does
 JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
-                               const Material& material, double indentation,
+                               const Body& body, double indentation,
                                const JointMotion& motion, const CycleOptions& options);
 
 }  // namespace salebra

@@ -5,7 +5,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/quantities.hpp>
@@ -204,7 +204,8 @@ struct SurfaceSlidingMotion {
 /// on cells of half the size (the number itself is that of the smaller cells), its change if every
 /// second contact is left out, and its change if K_t/K is linear in ln F. relaxation_damping is
 /// that of surface_damping(). A number is NaN where it is no larger than its error.
-/// curve   force curve of this surface and material, with K_t in full stick
+/// body    a Material, or any Body under a periodic surface
+/// curve   force curve of this surface and body, with K_t in full stick
 /// load    index of the sample of the curve about which the contact oscillates
 /// returns one pair (numbers, errors) for each velocity
 /// throws  InvalidInput for u_z that is not > 0, and wherever steady_sliding() does; NotConverged
@@ -212,7 +213,7 @@ struct SurfaceSlidingMotion {
 /// cost    nine contacts on the given cells, five on cells of half the size, and the contacts of
 ///         surface_damping()
 std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
-    const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,
+    const Surface& surface, const Body& body, const ForceCurve& curve, std::size_t load,
     const SurfaceSlidingMotion& motion, const Progress& on_progress = {});
 
 }  // namespace salebra

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/half_space/body.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/conductance.hpp>
@@ -182,6 +182,12 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
 struct StudyConfiguration {
   std::variant<GeneratedSurfaces, MeasuredSurface> surfaces;
   Material material;  ///< including G*
+  /// A body in place of the half-spaces of `material`; empty: these. Boundary elements alone are
+  /// computed on it, without adhesion, conductance or first loading. The results then have in
+  /// `material` the modulus E* = pressure_scale()/h' of an equivalent half-space under the first
+  /// surface, and no G*.
+  std::optional<Body> body = {};
+  Body pressed() const { return body.value_or(Body(material)); }  ///< what the surfaces press on
   /// Pressures of the sweep with boundary elements, increasing: in Pa or, if relative_pressures is
   /// true, in units of E*h'_rms.
   std::vector<double> pressures;
@@ -243,6 +249,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
   using S = StudyConfiguration;
   keep(visit, &S::surfaces);
   visit(&S::material, Kept{"material", "elastic constants of the bodies"});
+  keep(visit, &S::body);
   keep(visit, &S::pressures, &S::relative_pressures, &S::pressures_below_hardness);
   visit(&S::tolerance, Kept{"tolerance", "of each contact"});
   keep(visit, &S::stick, &S::window, &S::ensemble, &S::target_precision, &S::min_realisations);

@@ -63,6 +63,8 @@ struct MaterialArgument {
 struct PressedArgument {
   MaterialArgument material;
   std::optional<Body> body;
+
+  Body pressed() const { return body ? *body : Body(material.material()); }
 };
 
 }  // namespace salebra::python

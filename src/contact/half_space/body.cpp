@@ -279,4 +279,8 @@ bool Body::has_tangential_response() const { return parts_->tangential; }
 
 const std::optional<Material>& Body::half_space_material() const { return parts_->material; }
 
+double Body::modulus_ratio() const {
+  return parts_->material ? parts_->material->modulus_ratio() : unknown;
+}
+
 }  // namespace salebra

@@ -15,7 +15,7 @@
 namespace salebra {
 
 ContactLaw::ContactLaw(double modulus_ratio) : modulus_ratio_(modulus_ratio) {
-  require_positive(modulus_ratio, "modulus_ratio");
+  if (!std::isnan(modulus_ratio)) require_positive(modulus_ratio, "modulus_ratio");
 }
 
 double ContactLaw::tangential_stiffness(double indentation) const {
@@ -42,6 +42,7 @@ std::vector<double> PowerLaw::break_points() const { return {0}; }
 
 PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
     : ContactLaw(modulus_ratio), coefficient_(coefficient), exponent_(exponent) {
+  require_positive(modulus_ratio, "modulus_ratio");
   require_positive(coefficient, "coefficient");
   // An exponent below 1 would mean a contact that softens under load, which no indenter does; 1 is
   // the flat punch.
@@ -73,6 +74,7 @@ double PowerLaw::indentation_of(double force) const {
 
 ExponentialLaw::ExponentialLaw(double reference_force, double decay_length, double modulus_ratio)
     : ContactLaw(modulus_ratio), reference_force_(reference_force), decay_length_(decay_length) {
+  require_positive(modulus_ratio, "modulus_ratio");
   require_positive(reference_force, "reference_force");
   require_positive(decay_length, "decay_length");
 }
@@ -189,6 +191,7 @@ TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
   std::vector<double> indentation, log_force, slope, log_tangential;
   const bool has_normal = known(columns, &Column::normal_stiffness);
   const bool has_tangential = known(columns, &Column::tangential_stiffness);
+  if (!has_tangential) require_positive(modulus_ratio, "modulus_ratio");
   for (const Column& column : columns) {
     indentation.push_back(column.indentation);
     log_force.push_back(std::log(column.force));

@@ -16,6 +16,7 @@
 #include "anderson.hpp"
 #include "base/memory.hpp"
 #include "contact/half_space/half_space.hpp"
+#include "contact/half_space/normal_symbol.hpp"
 
 namespace salebra {
 namespace {
@@ -102,10 +103,25 @@ double rms_slope_of(const Surface& surface, const RowPartition& rows) {
   return std::sqrt(squares / static_cast<double>(grid.points()));
 }
 
-void check_adhesion(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+/// E* of half-spaces; of any other body, of the half-space that responds alike to waves of two cells,
+/// which are those at the edges of contact patches.
+double modulus_of(const Body& body, const Grid2D& grid) {
+  const auto& material = body.half_space_material();
+  return material ? material->contact_modulus : detail::reference_modulus(body, grid);
+}
+
+void check_adhesion(const Surface& surface, const Body& body, const Adhesion& adhesion,
                     const AdhesiveContactOptions& options) {
   surface.require_complete_rows("a contact calculation");
-  require_positive(contact_modulus, "contact_modulus");
+  if (const auto& material = body.half_space_material()) {
+    require_positive(material->contact_modulus, "contact_modulus");
+  } else {
+    detail::require_pressable(body, surface.grid, options.contact.boundary);
+    require(body.datum() == Datum::mean_plane, "datum", name_of(body.datum()),
+            "is for contacts without adhesion; measure from the mean plane");
+    require(std::isinf(options.contact.hardness), "hardness", options.contact.hardness,
+            "is for homogeneous half-spaces; leave it out");
+  }
   require(adhesion.work >= 0 && std::isfinite(adhesion.work), "work_of_adhesion", adhesion.work,
           "must be >= 0 and finite, J/m²; 0: no adhesion");
   require_positive(adhesion.range, "adhesion_range");
@@ -118,7 +134,7 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
     require(start->rows() == surface.heights.rows() && start->cols() == surface.grid.ny &&
                 (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
             "start_tension", start->size(), "cells must fill the grid with finite tensions >= 0");
-  const double zone = cells_in_process_zone(adhesion, surface.grid, contact_modulus);
+  const double zone = cells_in_process_zone(adhesion, surface.grid, body);
   // The number of cells in the process zone is proportional to the square of the range and to 1/(cell
   // size).
   require(zone >= min_zone || options.force_coarse, "adhesion_range", adhesion.range,
@@ -130,12 +146,13 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
 
 class AdhesiveSolve {
  public:
-  AdhesiveSolve(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+  AdhesiveSolve(const Surface& surface, const Body& body, const Adhesion& adhesion,
                 const AdhesiveContactOptions& options, const OperatingPoint& point)
       : surface_(surface),
         rows_(surface.partition()),
         cells_(static_cast<double>(surface.grid.points())),
-        modulus_(contact_modulus),
+        body_(body),
+        modulus_(modulus_of(body, surface.grid)),
         adhesion_(adhesion),
         options_(options),
         periodic_(options.contact.boundary == Boundary::periodic) {
@@ -143,7 +160,7 @@ class AdhesiveSolve {
     mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
     point_ = checked(point);
     require_wide_grid();
-    reference_ = detail::adhesion_reference(surface, contact_modulus, adhesion);
+    reference_ = detail::adhesion_reference(surface, body, adhesion);
   }
 
   AdhesiveContactState run() {
@@ -292,8 +309,10 @@ class AdhesiveSolve {
     state_.cells_in_process_zone = salebra::cells_in_process_zone(adhesion_, grid, modulus_);
     raised_ = {grid, Field(surface_.heights.rows(), grid.ny), surface_.periodic, surface_.origin,
                surface_.communicator};
-    compliance_.emplace(normal_compliance<double>(grid, modulus_, options_.contact.boundary,
-                                                  surface_.communicator));
+    detail::NormalResponse response(modulus_);
+    if (!body_.half_space_material()) response.body = body_;
+    compliance_.emplace(detail::normal_compliance<double>(
+        grid, detail::normal_symbol(grid, response, options_.contact.boundary, rows_), rows_));
     if (options_.start_tension) {
       tension_ = *options_.start_tension;
     } else if (point_.load_given() && !(point_.value > 0)) {
@@ -361,7 +380,7 @@ class AdhesiveSolve {
     }
     first_ = false;
     const Counts before = counts();
-    static_cast<NormalContactState&>(state_) = press(raised_, modulus_, inner_point, inner);
+    static_cast<NormalContactState&>(state_) = press(raised_, body_, inner_point, inner);
     state_.iterations += before.iterations;
     state_.fft_count += before.fft_count;
     state_.multilevel_count += before.multilevel_count;
@@ -520,6 +539,7 @@ class AdhesiveSolve {
   const Surface& surface_;
   const RowPartition rows_;
   const double cells_;
+  const Body body_;
   const double modulus_;
   const Adhesion adhesion_;
   const AdhesiveContactOptions& options_;
@@ -536,9 +556,9 @@ class AdhesiveSolve {
 
 }  // namespace
 
-double detail::adhesion_reference(const Surface& surface, double contact_modulus,
+double detail::adhesion_reference(const Surface& surface, const Body& body,
                                   const Adhesion& adhesion) {
-  return std::max(contact_modulus * rms_slope_of(surface, surface.partition()),
+  return std::max(modulus_of(body, surface.grid) * rms_slope_of(surface, surface.partition()),
                   adhesion.max_tension());
 }
 
@@ -576,6 +596,15 @@ double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, doubl
   return contact_modulus * adhesion.work / (top * top * std::max(grid.dx(), grid.dy()));
 }
 
+double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, const Body& body) {
+  return cells_in_process_zone(adhesion, grid, modulus_of(body, grid));
+}
+
+std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
+                                                   const Body& body) {
+  return warning_of_process_zone(adhesion, grid, modulus_of(body, grid));
+}
+
 std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
                                                    double contact_modulus) {
   const double zone = cells_in_process_zone(adhesion, grid, contact_modulus);
@@ -587,12 +616,18 @@ std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, con
       std::max(grid.dx(), grid.dy()) * zone / coarse_zone);
 }
 
+AdhesiveContactState press_adhesive(const Surface& surface, const Body& body,
+                                    const OperatingPoint& point, const Adhesion& adhesion,
+                                    const AdhesiveContactOptions& options) {
+  collectively(surface.communicator, [&] { check_adhesion(surface, body, adhesion, options); });
+  return AdhesiveSolve(surface, body, adhesion, options, point).run();
+}
+
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options) {
-  collectively(surface.communicator,
-               [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
-  return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).run();
+  return press_adhesive(surface, Material::of_contact_modulus(contact_modulus), point, adhesion,
+                        options);
 }
 
 }  // namespace salebra

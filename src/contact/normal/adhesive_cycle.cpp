@@ -17,9 +17,9 @@ constexpr int bisections = 6;  // after doubling has bracketed the maximum pull:
 
 class CycleRun {
  public:
-  CycleRun(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+  CycleRun(const Surface& surface, const Body& body, const Adhesion& adhesion,
            const AdhesiveCycleOptions& options)
-      : surface_(surface), modulus_(contact_modulus), adhesion_(adhesion), options_(options) {
+      : surface_(surface), body_(body), adhesion_(adhesion), options_(options) {
     if (options.contact.start_tension) tension_ = *options.contact.start_tension;
   }
 
@@ -63,7 +63,7 @@ class CycleRun {
   AdhesiveContactState solve(const OperatingPoint& point) const {
     AdhesiveContactOptions contact = options_.contact;
     contact.start_tension = tension_.size() > 0 ? &tension_ : nullptr;
-    return press_adhesive(surface_, modulus_, point, adhesion_, contact);
+    return press_adhesive(surface_, body_, point, adhesion_, contact);
   }
   void follow(const AdhesiveContactState& state) { tension_ = state.tension; }
   void keep(AdhesiveContactState state, bool unloading,
@@ -74,7 +74,7 @@ class CycleRun {
   }
 
   const Surface& surface_;
-  const double modulus_;
+  const Body body_;
   const Adhesion& adhesion_;
   const AdhesiveCycleOptions& options_;
   Field tension_;
@@ -209,12 +209,12 @@ bool AdhesiveCycle::converged() const {
   return all(loading) && all(unloading);
 }
 
-AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
+AdhesiveCycle adhesive_cycle(const Surface& surface, const Body& body,
                              const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options) {
   require_that(!points.empty(), "positions", "not given; give at least one");
   AdhesiveCycle cycle;
-  CycleRun run(surface, contact_modulus, adhesion, options);
+  CycleRun run(surface, body, adhesion, options);
   for (const OperatingPoint& point : points)
     if (!run.press_at(point, false, cycle.loading)) return cycle;
   if (!options.unload) return cycle;
@@ -228,10 +228,17 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
     run.pull_off(std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle);
     return cycle;
   }
-  const double reference = detail::adhesion_reference(surface, contact_modulus, adhesion);
+  const double reference = detail::adhesion_reference(surface, body, adhesion);
   measure_pull_off(cycle, reference);
   measure(cycle, surface.grid.area() * reference);
   return cycle;
+}
+
+AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
+                             const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
+                             const AdhesiveCycleOptions& options) {
+  return adhesive_cycle(surface, Material::of_contact_modulus(contact_modulus), points, adhesion,
+                        options);
 }
 
 }  // namespace salebra

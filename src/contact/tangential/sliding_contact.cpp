@@ -53,11 +53,11 @@ double entry_factor(const Values& pressures) {
 
 }  // namespace
 
-SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
+SlidingContact::SlidingContact(const Grid2D& grid, const Body& body,
                                const SlidingContactOptions& options)
     : cell_area_(grid.cell_area()),
       options_(options),
-      workspace_(std::make_unique<detail::TangentialWorkspace>(grid, material, options.stick)) {
+      workspace_(std::make_unique<detail::TangentialWorkspace>(grid, body, options.stick)) {
   state_.contact_pressure = state_.pressure_before = state_.loss = Field::Zero(grid.nx, grid.ny);
   state_.shift = state_.traction = state_.traction_before = state_.displacement = zero(grid);
   validate(options);

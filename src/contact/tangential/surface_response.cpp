@@ -89,6 +89,7 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
 
 void SurfaceResponse::apply_loosely(const PointList& points, const double* tractions,
                                     double* displacements) {
+  if (!make_single_) return apply(points, tractions, points, displacements);
   if (!single_) single_ = make_single_();
   double largest = max_of(tractions, components() * points.size());
   if (!(largest > 0)) largest = 1;

@@ -57,7 +57,7 @@ class SurfaceResponse {
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
                   Traction traction, const CellWindow& window, const RowPartition& rows);
 
-  /// Any body under a periodic surface; it has no apply_loosely().
+  /// Any body under a periodic surface, in double precision only.
   SurfaceResponse(const Grid2D& grid, const Body& body, Traction traction,
                   const RowPartition& rows);
 
@@ -87,7 +87,7 @@ class SurfaceResponse {
   Traction traction_;
   Convolution2D<double> compliance_;
   double single_unit_ = 1;  // m/Pa
-  std::function<Convolution2D<float>()> make_single_;
+  std::function<Convolution2D<float>()> make_single_;  // empty: there is none
   std::optional<Convolution2D<float>> single_;
   int fft_count_ = 0;
 };

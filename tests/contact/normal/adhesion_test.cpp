@@ -30,6 +30,8 @@ Grid2D cells(Index nx, Index ny) {
   return {nx, ny, static_cast<double>(nx), static_cast<double>(ny)};
 }
 
+const Body half_space = Material::of_contact_modulus(1);
+
 Surface steep(Index points, std::uint64_t seed = 1) {
   return rough_surface(cells(points, points), {.cutoff = 16, .rms_slope = 0.5, .seed = seed});
 }
@@ -38,8 +40,9 @@ Surface steep(Index points, std::uint64_t seed = 1) {
 /// above.
 class EnergyOfGap {
  public:
-  EnergyOfGap(const Surface& surface, const Adhesion& adhesion, double pressure)
+  EnergyOfGap(const Surface& surface, const Body& body, const Adhesion& adhesion, double pressure)
       : surface_(surface),
+        body_(body),
         adhesion_(adhesion),
         pressure_(pressure),
         fft_(surface.grid.nx, surface.grid.ny),
@@ -50,10 +53,13 @@ class EnergyOfGap {
     Field displaced = gap + surface_.heights, response(grid.nx, grid.ny);
     fft_.forward(displaced.data(), modes_.data());
     for (Index i = 0; i < grid.nx; ++i)
-      for (Index j = 0; j < fft_.modes_y(); ++j)
+      for (Index j = 0; j < fft_.modes_y(); ++j) {
+        const double q = 2 * pi *
+                         std::hypot(static_cast<double>(std::min(i, grid.nx - i)) / grid.lx,
+                                    static_cast<double>(j) / grid.ly);
         modes_[static_cast<std::size_t>(i * fft_.modes_y() + j)] *=
-            pi * std::hypot(static_cast<double>(std::min(i, grid.nx - i)) / grid.lx,
-                            static_cast<double>(j) / grid.ly);
+            q > 0 ? 1 / body_.compliance(q).normal : 0;
+      }
     fft_.backward(modes_.data(), response.data());
     response /= response_scale(displaced);
     if (gradient)
@@ -77,6 +83,7 @@ class EnergyOfGap {
   }
 
   const Surface& surface_;
+  Body body_;
   Adhesion adhesion_;
   double pressure_, scale_ = 0;
   RealFft2D<double> fft_;
@@ -143,7 +150,7 @@ TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
   const double pressure = GENERATE(0.002, 0.03);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Surface surface = steep(32, seed);
-    EnergyOfGap energy(surface, adhesion, pressure);
+    EnergyOfGap energy(surface, half_space, adhesion, pressure);
     RealFft2D<double> fft(32, 32);
     Field tension = Field::Zero(32, 32);
     double before = std::numeric_limits<double>::infinity();
@@ -221,15 +228,18 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
   const Adhesion adhesion{
       GENERATE(AdhesionPotential::exponential, AdhesionPotential::van_der_waals), 0.1, 3};
   const double pressure = GENERATE(0.003, 0.03);
+  // A half-space, and a rubbery layer of four cells on a rigid base.
+  const Body body =
+      GENERATE(half_space, Body::layered({{4, 0.8, 0.45}}));
   const Surface surface = steep(48);
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, at_pressure(pressure), adhesion, {.tolerance = 1e-7});
+      press_adhesive(surface, body, at_pressure(pressure), adhesion, {.tolerance = 1e-7});
   REQUIRE(state.converged());
   const Field gap = (state.contact_pressure > 0).select(0, state.gap.max(0.0));
   Lcg random(5);
   Field start = gap;
   for (double& g : start.reshaped()) g += 0.1 * random.uniform();
-  EnergyOfGap energy(surface, adhesion, pressure);
+  EnergyOfGap energy(surface, body, adhesion, pressure);
   const Field other = minimised(energy, start);
   const double expected = energy(other);
   CHECK(energy(gap) == Approx(expected).epsilon(1e-8));
@@ -246,7 +256,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
   CHECK(state.mean_gap == Approx(gap.mean()).epsilon(1e-9));
   // Adhesion increases the contact area.
   CHECK(state.contact_area_fraction >
-        press(surface, 1, at_pressure(pressure)).contact_area_fraction);
+        press(surface, body, at_pressure(pressure)).contact_area_fraction);
 }
 
 TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[adhesion]") {
@@ -488,7 +498,7 @@ TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][fir
   const auto energy_of = [&](const Field& depth) {
     Surface lowered = surface;
     lowered.heights -= depth;
-    return EnergyOfGap(lowered, adhesion, pressure)(gap) + (hardness - pressure) * depth.mean();
+    return EnergyOfGap(lowered, half_space, adhesion, pressure)(gap) + (hardness - pressure) * depth.mean();
   };
   const double least = energy_of(sunk);
   CHECK(state.total_energy / surface.grid.area() == Approx(least).epsilon(1e-8));
@@ -580,6 +590,16 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
 TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   const Surface surface = steep(32);
   const Adhesion good{AdhesionPotential::exponential, 0.1, 2};
+  const Body layer = Body::layered({{4, 0.8, 0.45}});
+  CHECK_THROWS_WITH(
+      press_adhesive(surface, layer.measured_from(Datum::base), at_pressure(0.01), good),
+      Catch::Contains("datum"));
+  CHECK_THROWS_WITH(press_adhesive(surface, layer, at_pressure(0.01), good,
+                                   {.contact = {.boundary = Boundary::free}}),
+                    Catch::Contains("boundary"));
+  CHECK_THROWS_WITH(
+      press_adhesive(surface, layer, at_pressure(0.01), good, {.contact = {.hardness = 1}}),
+      Catch::Contains("hardness"));
   const auto message = [&](const OperatingPoint& target, const Adhesion& adhesion,
                            const AdhesiveContactOptions& options) -> std::string {
     try {

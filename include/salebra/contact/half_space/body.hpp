@@ -140,6 +140,9 @@ class Body {
   bool has_tangential_response() const;  ///< false if C_l and C_a are unknown
   /// The constants of homogeneous isotropic half-spaces; none for other bodies.
   const std::optional<Material>& half_space_material() const;
+  /// G*/E* of half_space_material(); NaN for other bodies, of which no constant gives K_t/K. Throws
+  /// InvalidInput for half-spaces with E* alone.
+  double modulus_ratio() const;
   /// True if the copies share their data, and thus all responses are equal.
   bool same_as(const Body& other) const { return parts_ == other.parts_; }
 

@@ -16,7 +16,8 @@ namespace salebra {
 /// Evaluation above highest_indentation() throws InvalidInput that names the range.
 class ContactLaw {
  public:
-  /// modulus_ratio: G*/E* > 0, the ratio of K_t to K.
+  /// modulus_ratio: G*/E* > 0, the ratio of K_t to K; NaN if the body has no such constant, for a
+  /// law whose K_t comes from elsewhere.
   explicit ContactLaw(double modulus_ratio);
   virtual ~ContactLaw() = default;
 
@@ -92,8 +93,8 @@ class ExponentialLaw final : public ContactLaw {
 /// ln F over δ; its slopes at the samples are K/F if every sample has K, otherwise four-point
 /// differences. K and F'' are the exact derivatives of the interpolant. The errors of F, K and F''
 /// are of order 4, 3 and 2 in the spacing of the samples (F'' jumps at the samples). If every
-/// sample has K_t, ln K_t is interpolated in the same way and modulus_ratio is not used; otherwise
-/// K_t = (G*/E*)K. δ is the indentation of the samples, or −ū if a sample has no indentation; this
+/// sample has K_t, ln K_t is interpolated in the same way and modulus_ratio, which may be NaN, is
+/// not used; otherwise K_t = (G*/E*)K. δ is the indentation of the samples, or −ū if a sample has no indentation; this
 /// only shifts δ. Samples that did not converge or have F = 0 are ignored.
 ///
 /// Below the first sample (δ1, F1, K1, K_t1) the law is that of summits that separate one after the

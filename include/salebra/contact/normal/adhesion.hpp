@@ -50,10 +50,14 @@ constexpr void describe(auto&& visit, std::type_identity<Adhesion>) {
 /// side of a cell); infinite for w = 0. If the zone is narrower than 1.4 cells, the grid determines
 /// where contacts begin and end, not the surfaces.
 double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, double contact_modulus);
+/// The same for any body, with E* = 2/(qC_n(q)) at waves of two cells.
+double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, const Body& body);
 
 /// Returns the text of a warning if the process zone has fewer than 3.3 cells.
 std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
                                                    double contact_modulus);
+std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
+                                                   const Body& body);
 
 struct AdhesiveContactOptions {
   /// The solver stops when the tension t satisfies |φ'(g) − t| < tolerance · max(E*·rms slope,
@@ -148,6 +152,11 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 ///            transform pairs; 130 bytes per cell in addition to press(). Collective if the surface
 ///            is distributed, with the same bits for any number of processes and threads
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
+                                    const OperatingPoint& point, const Adhesion& adhesion,
+                                    const AdhesiveContactOptions& options = {});
+/// On any body under a periodic surface, whose displacements are measured from the mean plane, and
+/// without a hardness. Throws InvalidInput for another datum and wherever press() does.
+AdhesiveContactState press_adhesive(const Surface& surface, const Body& body,
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options = {});
 

@@ -107,5 +107,9 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
                              const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options = {});
+/// On any body, as press_adhesive().
+AdhesiveCycle adhesive_cycle(const Surface& surface, const Body& body,
+                             const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
+                             const AdhesiveCycleOptions& options = {});
 
 }  // namespace salebra

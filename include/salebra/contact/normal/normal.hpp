@@ -159,4 +159,14 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, const Body& body,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 
+/// The pressure scale of a rough surface on a body, Pa: twice the rms pressure of full contact,
+///     2 [∫ C(q)/C_n(q)² d²q]^½,
+/// with the power spectral density C of the heights and the compliance C_n of the body. On a
+/// half-space it is E*h' with the rms slope h' of the waves of the grid, in units of which contact
+/// area and gap are nearly the same for all surfaces:
+///     const double relative = 1e6 / pressure_scale(surface, coated);
+/// Collective. The surface is continued periodically. Throws InvalidInput for waves beyond the table
+/// of a body. Cost: an FFT, and one response for each wave.
+double pressure_scale(const Surface& surface, const Body& body);
+
 }  // namespace salebra

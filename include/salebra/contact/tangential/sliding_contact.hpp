@@ -98,9 +98,9 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
 /// tolerance of the solver.
 class SlidingContact {
  public:
-  /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
-  SlidingContact(const Grid2D& grid, const Material& material,
-                 const SlidingContactOptions& options = {});
+  /// body: a Material, or any Body, which must be under a periodic surface. Throws InvalidInput for a
+  /// bad grid or option, or a body without tangential constants.
+  SlidingContact(const Grid2D& grid, const Body& body, const SlidingContactOptions& options = {});
 
   SlidingContact(SlidingContact&&) noexcept;
   SlidingContact& operator=(SlidingContact&&) noexcept;
