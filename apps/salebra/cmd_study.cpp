@@ -11,6 +11,7 @@
 #include <salebra/study/study.hpp>
 #include <tuple>
 
+#include "figures/study_numbers.hpp"
 #include "option_words.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
@@ -92,29 +93,6 @@ std::pair<double, std::string> unit_of(const std::vector<StatedMean>& constants)
   return most > 2e4             ? std::pair(1e3, "kN s/m")
          : most > 0 && most < 1 ? std::pair(1e-3, "mN s/m")
                                 : std::pair(1.0, "N s/m");
-}
-
-std::string motion_text(const StudyConfiguration& configuration) {
-  const auto quantity = [](double value, Dimension dimension) {
-    return format_quantity(value, dimension, 3);
-  };
-  const auto frequency = [&](double omega) {
-    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency) +
-           (configuration.hold() == Hold::force ? ", mean force held" : "");
-  };
-  if (const auto* drag = std::get_if<Drag>(&configuration.motion))
-    return fmt::format("slow shear{} at {} under {} at {}",
-                       std::isnan(configuration.known.excursion)
-                           ? ""
-                           : " over " + quantity(configuration.known.excursion, Dimension::length),
-                       quantity(drag->drag_velocity, Dimension::velocity),
-                       quantity(drag->normal_amplitude, Dimension::length),
-                       frequency(drag->angular_frequency));
-  const auto& equal = std::get<EqualFrequency>(configuration.motion);
-  return fmt::format("{} along and {} across the surface, {} apart, at {}",
-                     quantity(equal.tangential_amplitude, Dimension::length),
-                     quantity(equal.normal_amplitude, Dimension::length),
-                     quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
 }
 
 /// The table over the loads: damping constant γ of the motion as the user described it, γ without
@@ -285,7 +263,10 @@ std::string adhesion_table(const StudyResult& result) {
 /// The damping constant at each load in one direction, with its assumptions.
 std::string damping_text(const StudyResult& result, const StudySolution& answer) {
   const double friction = result.configuration.known.friction_coefficient;
-  const std::string motion = "Damping constant: " + motion_text(result.configuration);
+  const std::string motion =
+      "Damping constant: " +
+      figures::motion_in_words(result.configuration.motion, result.configuration.known.excursion) +
+      (result.configuration.hold() == Hold::force ? ", mean force held" : "");
   const std::string beside = fmt::format(
       "{}{}", std::isnan(answer.direction) ? "" : ", " + direction_in_words(answer.direction),
       std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));

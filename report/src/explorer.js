@@ -3,6 +3,8 @@
 // contact/law/law.cpp, damping/spring_loss.cpp, and damping/assumptions.cpp.
 "use strict";
 
+const mean = (values) => values.filter(known).reduce((a, b) => a + b, 0) / values.filter(known).length;
+
 /** A monotone cubic through points, x ↦ {value, slope}. Without given slopes it uses those of the cubic through four neighbours. */
 function monotoneCubic(x, y, given) {
   const count = x.length;
@@ -32,7 +34,7 @@ function monotoneCubic(x, y, given) {
  */
 function lawOf(point, {exponential = false, half = -1} = {}) {
   const of = (name) => point.curve?.[name]?.bem?.mean ?? [], gap = of("mean_gap"), ratio = point.damping.modulus_ratio;
-  const force = facts(point).force;
+  const force = forces(point);
   let least = Infinity;
   const all = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
   const loads = all.filter((_, i) => i === 0 || i === all.length - 1 || i % 2 !== half);

@@ -30,20 +30,10 @@ function faint(name, opacity) {
   return `rgba(${value >> 16}, ${(value >> 8) & 255}, ${value & 255}, ${opacity})`;
 }
 
-const MODEL_STYLES = {
-  bem: {color: "blue", symbol: "circle", dash: "solid"},
-  gw_moments: {color: "vermilion", symbol: "square", dash: "solid"},
-  gw_deterministic: {color: "green", symbol: "diamond", dash: "solid"},
-  gw_monte_carlo: {color: "purple", symbol: "triangle-up", dash: "dot"},
-  gw_interacting: {color: "ochre", symbol: "cross", dash: "dash"},
-  persson: {color: "slate", symbol: "x", dash: "longdashdot"},
-};
-const styleOf = (model) => MODEL_STYLES[model] ?? {color: "ink", symbol: "circle-open", dash: "dashdot"};
-
 const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, size: 13, color: color("ink")});
 
 /**
- * spec  {id, title, caption, alt, height?, columns, axes: {x: {label, unit, log, fixed?}, y: …, y2?}, controls?, square?, plot(tools)}
+ * spec  {id, title, caption, alt, height?, columns, axes: {x: {label, unit, log, fixed?}, y: …}, controls?, square?, plot(tools)}
  *       axes      label: without unit; log: initial scale; fixed: no switch; values: returns the values that determine the SI prefix
  *       plot      returns {series, shapes?, annotations?, layout?}; a series is a plotly trace in SI units with {label, group?}
  *       controls  elements before the switches; they call figure.redraw()
@@ -116,15 +106,14 @@ function axisLayout(axis, mode, scale, values) {
     showline: true, ticks: "outside", tickcolor: color("line"), ticklen: 4, exponentformat: "power", showexponent: "all", minexponent: 4,
     minor: mode === "log" ? {showgrid: false, ticks: "outside", ticklen: 2, tickcolor: color("line")} : {},
     ...(mode === "log" ? logarithmicTicks(values.map((v) => v * scale.factor)) : {}),
-    ...(axis.percent ? {tickformat: mode === "log" ? "~%" : ".0~%"} : {}),
+    ...(axis.limits && mode === "linear" ? {range: axis.limits.map((limit) => limit * scale.factor)} : {}),
     ...(axis.layout ?? {}),
   };
 }
 
 function draw(spec, state, plot, legend, figure) {
   const content = spec.plot({state});
-  const all = (name) => content.series.filter((s) => (s[`${name[0]}axis`] ?? name[0]) === name && s.type !== "heatmap")
-    .flatMap((s) => Array.from(s[name[0]] ?? []));
+  const all = (name) => content.series.filter((s) => s.type !== "heatmap").flatMap((s) => Array.from(s[name] ?? []));
   const scales = {}, layout = {
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: axisFont(), showlegend: false, hovermode: "closest",
     separators: `.${NARROW}`, margin: {l: 12, r: 14, t: 8, b: 12}, dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", autosize: true,
@@ -133,16 +122,15 @@ function draw(spec, state, plot, legend, figure) {
   };
   for (const [name, axis] of Object.entries(spec.axes)) {
     scales[name] = axis.unit === undefined ? {factor: 1, label: ""} : scaleFor(axis.values ? axis.values() : all(name), axis.unit);
-    layout[name[0] + "axis" + name.slice(1)] = axisLayout(axis, state[name], scales[name], axis.log === undefined ? [] : all(name));
+    layout[`${name}axis`] = axisLayout(axis, state[name], scales[name], axis.log === undefined ? [] : all(name));
   }
-  const factorOf = (trace, letter) => scales[trace[`${letter}axis`] ?? letter].factor;
   const traces = content.series.map((series) => {
     const {label, group, ...trace} = series;
     const hidden = state.hidden.has(group ?? label);
-    for (const letter of ["x", "y"]) if (trace[`error_${letter}`]) trace[`error_${letter}`] = scaledBars(trace[`error_${letter}`], factorOf(trace, letter));
+    for (const letter of ["x", "y"]) if (trace[`error_${letter}`]) trace[`error_${letter}`] = scaledBars(trace[`error_${letter}`], scales[letter].factor);
     return {
-      ...trace, name: plotText(label ?? ""), visible: !hidden, x: scaled(Array.from(trace.x), factorOf(trace, "x")),
-      y: scaled(Array.from(trace.y), factorOf(trace, "y")), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),
+      ...trace, name: plotText(label ?? ""), visible: !hidden, x: scaled(Array.from(trace.x), scales.x.factor),
+      y: scaled(Array.from(trace.y), scales.y.factor), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),
     };
   });
   // Shapes and annotations are in SI units too. On a logarithmic axis, plotly expects logarithms for annotations but not for shapes.
@@ -239,7 +227,6 @@ function estimateColumns(label, key, unit, estimate) {
     columns.push({label: `${label}, low`, key: `${key}_low`, unit, values: estimate.low},
       {label: `${label}, high`, key: `${key}_high`, unit, values: estimate.high});
   }
-  if (estimate.error?.some(known)) columns.push({label: `${label}, error`, key: `${key}_error`, unit, values: estimate.error});
   return columns;
 }
 
@@ -249,9 +236,10 @@ const CURVE_STYLES = [["blue", "circle"], ["vermilion", "square"], ["green", "di
 const CURVE_DASHES = {dashed: "dash", dotted: "dot"};
 const PALETTES = {sequential: "Viridis", diverging: "RdBu", grey: "Greys"};
 
-/** The text of a figure of the library in the markup of the page: a_b and a_{b} become a_{b}, and a backslash makes the next character plain. */
+/** The text of a figure of the library in the markup of the page: a_b and a_{b} become a_{b}, a backslash makes the next character plain, and symbols are slanted. */
 const libraryText = (text) => text.replace(/\\(.)|([_^])(?:\{([^}]*)\}|(.))/gu, (_, plain, mark, braced, one) => plain ?? `${mark}{${braced ?? one}}`)
-  .replace(/(\d) (?=(?:[afpnµmkMG]?(?:m|N|Pa|J)|%)(?:[²\s,;.)]|$))/gu, `$1${NARROW}`);
+  .replace(/(\d) (?=(?:[afpnµmkMG]?(?:m|N|Pa|J)|%)(?:[²\s,;.)]|$))/gu, `$1${NARROW}`)
+  .replace(/(?<![\p{L}\d‹]|\d[\s\u202f])[pFūlhKEGuvWγCqH](?![\p{L}\d›])/gu, "‹$&›");
 
 const libraryAxis = (axis, more) => ({label: libraryText(axis.label), unit: axis.unit || "1", ...more, ...(axis.logarithmic ? {log: true} : {})});
 
@@ -266,22 +254,24 @@ function libraryFigure(parent, point, name, more = {}) {
   if (!image && !panel.curves.some(({y}) => y.some(known))) return null;
   const parts = image ? mapOf(panel) : curvesOf(panel);
   const heading = libraryText(panel.title);
-  return addFigure(parent, {id: name, title: libraryText(found.title), caption: `${libraryText(found.caption)}${heading.includes(" = ") ? ` ${heading[0].toUpperCase()}${heading.slice(1)}.` : ""}${image ? MAP_NOTE(point.picture) : ""}`, ...parts, ...more});
+  return addFigure(parent, {id: name, title: libraryText(found.title), caption: `${libraryText(found.caption)}${heading.includes(" = ") ? ` ${heading.replace(/^\p{Ll}(?=\p{Ll})/u, (first) => first.toUpperCase())}.` : ""}${image ? MAP_NOTE(point.picture) : ""}`, ...parts, ...more});
 }
 
 /** Curves over a common or an own x, with bands or error bars, lines across the panel and shaded ranges. */
-function curvesOf({x, y, second_x: second, curves, lines, ranges}) {
+function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
+  const curves = all.filter((curve) => curve.y.some(known));
   const style = (curve, i) => { const [paint, symbol] = CURVE_STYLES[curve.color < 0 ? i % 7 : curve.color]; return {color: paint, symbol, dash: CURVE_DASHES[curve.style] ?? "solid"}; };
-  const nameOf = (curve) => libraryText(curve.name || y.label), key = (curve) => (curve.quantity || y.quantity || "y");
+  // A curve without a name is one more of those of its colour.
+  const nameOf = (curve) => libraryText(curve.name || curves.find(({name, color: same}) => name && same === curve.color)?.name || y.label), key = (curve) => (curve.quantity || y.quantity || "y");
   const common = curves.every((curve) => curve.x.length === curves[0].x.length && curve.x.every((v, k) => v === curves[0].x[k]));
   const twice = curves.some((curve, i) => curves.findIndex((other) => key(other) === key(curve)) !== i);
   const keyOf = (curve) => (twice ? `${plainText(nameOf(curve)).replace(/[^A-Za-z0-9]+/g, "_")}_${key(curve)}` : key(curve)), unit = y.unit || "1";
   const text = (curve) => curve.x.map((v, k) => plotText(`${nameOf(curve)}: ${quantity(curve.y[k], unit, 4)}`) + (known(curve.low[k]) ? `<br>${interval({low: curve.low[k], high: curve.high[k]}, unit)}` : "")
-    + `<br>${plotText(worded(x, v))}` + (second ? `<br>${plotText(worded(second, v * second.factor))}` : ""));
+    + [[x, v], [second_x, v], [second_y, curve.y[k]]].filter(([axis]) => axis).map(([axis, value]) => `<br>${plotText(worded(axis, value * (axis.factor ?? 1)))}`).join(""));
   const positive = (letter) => curves.every((curve) => curve[letter].every((v) => !known(v) || v > 0));
   const span = (curve) => { const there = curve.y.filter(known); return `${plainText(nameOf(curve))} from ${quantity(there[0], unit, 3)} to ${quantity(there.at(-1), unit, 3)}`; };
   return {
-    axes: {x: libraryAxis(x, {log: false, fixed: !positive("x")}), y: libraryAxis(y, {log: false, fixed: !positive("y")})},
+    axes: {x: libraryAxis(x, {log: false, fixed: !positive("x")}), y: libraryAxis(y, {log: false, fixed: !positive("y"), ...(y.high === undefined ? {} : {limits: [y.low, y.high]})})},
     alt: () => `${plainText(libraryText(y.label))} over ${plainText(libraryText(x.label))}: ${curves.filter((curve) => curve.y.some(known)).map(span).join("; ")}${lines.map((line) => `; ${plainText(libraryText(line.name))} at ${quantity(line.at, (line.vertical ? x : y).unit || "1", 3)}`).join("")}.`,
     columns: () => (common ? [{label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves[0].x}, ...curves.flatMap((curve) => estimateColumns(nameOf(curve), keyOf(curve), unit, {mean: curve.y, low: curve.low, high: curve.high}))]
       : [{label: "curve", key: "curve", unit: "1", values: curves.flatMap((curve, i) => curve.x.map(() => i + 1))}, {label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves.flatMap((curve) => curve.x)}, {label: libraryText(y.label), key: y.quantity || "y", unit, values: curves.flatMap((curve) => curve.y)}]),
@@ -295,7 +285,7 @@ function curvesOf({x, y, second_x: second, curves, lines, ranges}) {
         ...lines.map(({at, vertical}) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: {color: color("muted"), width: 1.5, dash: "dash"}}))],
       annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12},
         ...(vertical ? {x: at ?? (low + high) / 2, y: 1, yref: "paper", yanchor: "top"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
-      axes: y.low === undefined ? {} : {yaxis: {rangemode: "tozero"}},
+      axes: y.low === undefined || y.high !== undefined ? {} : {yaxis: {rangemode: "tozero"}},
     }),
   };
 }

@@ -13,6 +13,7 @@ function section(parent, id, title, intro, build) {
   return element;
 }
 
+const isDrag = (point) => point.damping?.mode === "drag";
 const converged = (point) => point.figures?.some(({kind}) => kind === "convergence");
 const absent = (what) => h("p", {class: "absent"}, `This results file does not contain ${what}; a study by a newer salebra does.`);
 
@@ -63,8 +64,21 @@ function lawVerdict(point) {
   };
 }
 
+/** Decay length and area slope of each model, as a table that is always shown. */
+function modelTable(point) {
+  const fits = point.fit?.models;
+  if (!fits) return null;
+  const models = point.models.filter((m) => fits[m.name]);
+  const of = (name) => models.map((m) => fits[m.name][name]);
+  const text = (estimates, unit) => estimates.map((e) => interval(e, unit) || "–");
+  const columns = [{label: "model", key: "model", values: models.map((m) => m.title)}];
+  if (of("decay_length").some(Boolean)) columns.push({label: "‹l›", key: "decay_length", unit: "m", values: of("decay_length").map((e) => e?.mean)}, {label: "95 % interval", key: "interval", values: text(of("decay_length"), "m")});
+  if (of("decay_length_over_rms_height").some(Boolean)) columns.push({label: "‹l›/‹h›_{rms}", key: "ratio", unit: "1", digits: 3, values: of("decay_length_over_rms_height").map((e) => e?.mean)}, {label: "95 % interval", key: "ratio_interval", values: text(of("decay_length_over_rms_height"), "1")});
+  if (of("area_slope").some(Boolean)) columns.push({label: "area slope κ", key: "area_slope", unit: "1", digits: 3, values: of("area_slope").map((e) => e?.mean)}, {label: "95 % interval", key: "slope_interval", values: text(of("area_slope"), "1")});
+  return table("Decay length of ‹F› ∝ exp(−‹ū›/‹l›), and slope of ‹A›/‹A›_{0} over ‹p›/(‹E›*‹h›′), by model", columns, true);
+}
+
 function conclusion(main, point) {
-  const damping = point.damping;
   section(main, "conclusion", "Results", null, (body, element) => {
     body.className = "findings";
     const fill = () => body.replaceChildren(...cards(point));
@@ -76,10 +90,7 @@ function conclusion(main, point) {
       element.append(h("p", {class: "verdict"}, h("strong", {}, "Assumptions of the damping constant. ")));
       element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Assumptions"}, point.verdicts.replaceAll("`", "")));
     }
-    if (damping) {
-      const {excursion, friction_coefficient: friction} = point.assumptions ? studiedMotion(point) : {}, motion = describeMotion(damping);
-      element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), `${motion[0].toUpperCase()}${motion.slice(1)}${known(excursion) ? `, excursion ${quantity(excursion, "m", 3)}` : ""}${known(friction) ? `, friction coefficient ${number(friction)}` : ""}.`));
-    }
+    if (point.motion) element.append(h("p", {class: "verdict"}, libraryText(point.motion)));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
@@ -181,7 +192,7 @@ function show(index) {
     const chooser = h("select", {id: "point", onchange: (event) => show(Number(event.target.value))}, data.points.map((_, i) => h("option", {value: i, selected: i === index}, data.names?.[i] || `point ${i + 1}`)));
     section(main, "grid", "Parameter grid", null, (body, element) => {
       element.insertBefore(h("label", {class: "choice", for: "point"}, "Point shown below ", chooser), body);
-      overviewFigure(body, data);
+      libraryFigure(body, data, "overview", {height: 340});
     });
   }
   conclusion(main, point);
@@ -199,10 +210,9 @@ function show(index) {
     body.append(surfaceTable(point));
   });
   section(main, "law", "Force against mean gap", null, (body) => {
-    if (!point.curve?.mean_gap?.bem) return void body.append(absent("the force–gap curve of boundary elements"));
-    forceGapFigure(body, point);
+    if (!libraryFigure(body, point, "gap-load", {height: 420})) body.append(absent("force–gap curves"));
     libraryFigure(body, point, "adhesion-loop", {height: 420});
-    localLengthFigure(body, point);
+    libraryFigure(body, point, "local-length");
   });
   section(main, "contact", "Contact", null, (body) => {
     libraryFigure(body, point, "pressure-map");
@@ -215,12 +225,12 @@ function show(index) {
   section(main, "models", "Models side by side", "Boundary elements and Greenwood–Williamson models on the same surfaces, and theories in closed form.", (body, element) => {
     const summary = modelTable(point);
     if (summary) element.insertBefore(summary, body);
-    modelFigures(body, point);
+    for (const name of ["area-load", "stiffness-load", "stiffness-ratio"]) libraryFigure(body, point, name);
   });
   if (!point.adhesion) section(main, "damping", "Damping", null, (body) => {
     if (!point.damping) return void body.append(absent("damping"));
-    dampingFigure(body, point);
-    dampingRatioFigure(body, point);
+    libraryFigure(body, point, "damping-curve", {height: 420});
+    libraryFigure(body, point, "damping-ratio");
   });
   if (converged(point)) section(main, "ensemble", "Number of surfaces", null, (body) => libraryFigure(body, point, "convergence", {height: 300}));
   symbolsAndCitation(main);

@@ -42,10 +42,13 @@ function chooseLoad(load) {
   for (const follow of onLoad) follow();
 }
 
+/** The normal force at each pressure. */
+const forces = ({surface, pressure}) => pressure.map((p) => p * (surface ? surface.size_x * surface.size_y : NaN));
+
 function loadChooser(point, id) {
-  const area = facts(point).area;
+  const force = forces(point);
   return h("label", {class: "choice", for: id}, "Load ", h("select", {id, class: "load", onchange: (event) => chooseLoad(Number(event.target.value))},
-    point.pressure.map((p, i) => h("option", {value: i, selected: i === shownLoad(point)}, quantity(p, "Pa", 3) + (known(area) ? `, ${quantity(p * area, "N", 3)}` : "")))));
+    point.pressure.map((p, i) => h("option", {value: i, selected: i === shownLoad(point)}, quantity(p, "Pa", 3) + (known(force[i]) ? `, ${quantity(force[i], "N", 3)}` : "")))));
 }
 
 /** Names the surface of the maps and the profile, if a study has several. */

@@ -9,6 +9,7 @@
 #include <salebra/analysis/damping.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
+#include <salebra/study/realisation.hpp>
 
 #include "results/columns.hpp"
 
@@ -17,7 +18,7 @@ namespace salebra::figures {
 Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
   Quantity quantity = find_quantity(name);
   if (!is_quantity(name))
-    if (const Column* own = find_column<DampingProblem, DampingSolution>(name))
+    if (const Column* own = find_column<DampingProblem, DampingSolution, SpotStatistics>(name))
       quantity = {own->name, own->dimension, own->long_name};
   // No described struct has frequencies, which are angular in all of them.
   for (const auto& [frequency, meaning] :

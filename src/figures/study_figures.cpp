@@ -1,211 +1,135 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figure of `compare`: curves of all models with 95 % bands.
+// Figures of `study`, `compare` and reports: curves of all models with 95 % bands.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
+#include <salebra/damping/closed_form.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
-#include <tuple>
+#include <salebra/surface/lay.hpp>
 
 #include "axes.hpp"
+#include "study/estimate.hpp"
+#include "study_numbers.hpp"
 
 namespace salebra::figures {
 namespace {
 
-std::vector<double> column(const std::vector<EnsembleMean>& estimates,
-                           double EnsembleMean::*member) {
+using Means = std::vector<EnsembleMean>;
+
+/// Surfaces whose curves are drawn singly; more would only blur the picture.
+constexpr std::size_t max_single_curves = 24;
+
+std::vector<double> column(const Means& estimates, double EnsembleMean::*member) {
   std::vector<double> values;
   for (const EnsembleMean& estimate : estimates) values.push_back(estimate.*member);
   return values;
 }
 
-Curve band(const std::string& name, const std::vector<double>& x,
-           const std::vector<EnsembleMean>& y) {
+Curve band(const std::string& name, const std::vector<double>& x, const Means& y, int color,
+           Style style = Style::line) {
   return {.name = name,
           .x = x,
           .y = column(y, &EnsembleMean::mean),
           .low = column(y, &EnsembleMean::low),
-          .high = column(y, &EnsembleMean::high)};
+          .high = column(y, &EnsembleMean::high),
+          .style = style,
+          .color = color};
+}
+
+EnsembleMean mean_of(const StudyNumbers& numbers, const std::vector<double>& values) {
+  return numbers.twin ? prediction(values) : Bootstrap().mean(values);
+}
+
+/// Means over the surfaces of a number at each pressure.
+Means at_pressures(const StudyNumbers& numbers,
+                   const std::function<double(std::size_t surface, std::size_t k)>& number) {
+  Means means;
+  for (std::size_t k = 0; k < numbers.pressures.size(); ++k) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < numbers.rms_height.size(); ++i) values.push_back(number(i, k));
+    means.push_back(mean_of(numbers, values));
+  }
+  return means;
 }
 
 /// Adds γ of the motion as the user described it, with the same numbers as the table of the study:
 /// with the 95 % interval over the surfaces or, for one surface, the numerical error.
-void add_answer(const StudyResult& result, Panel& damping) {
-  const StudySolution answer = solution_of(result);
-  const bool sample = result.realisations.size() > 1;
+void add_answer(const StudyNumbers& numbers, Panel& damping) {
+  const bool sample = numbers.rms_height.size() > 1;
   bool any_bar = false;
   Curve points{
-      .quantity = "damping_constant", .x = result.pressures, .style = Style::points, .color = 0};
-  for (const StatedMean& one : answer.damping_constant) {
-    const double low = sample ? one.low : one.mean - one.error,
-                 high = sample ? one.high : one.mean + one.error;
-    const bool bar = !std::isnan(low);
+      .quantity = "damping_constant", .x = numbers.pressures, .style = Style::points, .color = 0};
+  const auto low = [&](const StatedMean& one) { return sample ? one.low : one.mean - one.error; };
+  const auto high = [&](const StatedMean& one) { return sample ? one.high : one.mean + one.error; };
+  for (const StatedMean& one : numbers.damping_constant) {
+    const bool bar = !std::isnan(low(one));
     any_bar |= bar;
     points.y.push_back(one.mean);
-    points.low.push_back(bar ? low : one.mean);
-    points.high.push_back(bar ? high : one.mean);
-  }
-  if (std::ranges::all_of(points.y, [](double value) { return std::isnan(value); })) return;
-  if (answer.slips()) {
-    points.name =
-        fmt::format("with slip, µ = {:g}", result.configuration.known.friction_coefficient);
-    damping.curves.front().name = "without slip, as all lines";
-  } else {
-    points.name = "without slip";
-  }
-  if (any_bar) points.name += sample ? ", 95 %" : ", ± error";
-  damping.curves.push_back(std::move(points));
-  // The headline of the table: γ at the highest pressure at which it is known.
-  for (std::size_t k = answer.damping_constant.size(); k-- > 0;) {
-    const StatedMean& one = answer.damping_constant[k];
+    points.low.push_back(bar ? low(one) : one.mean);
+    points.high.push_back(bar ? high(one) : one.mean);
     if (!std::isfinite(one.mean)) continue;
-    const std::string at = " at " + format_quantity(result.pressures[k], Dimension::pressure, 3);
+    // The headline of the table: γ at the highest pressure at which it is known.
     damping.title = "γ = " +
                     (sample ? interval_text(one.mean, one.low, one.high, Dimension::damping)
                             : error_text(one.mean, one.error, Dimension::damping)) +
-                    at;
-    break;
+                    " at " +
+                    format_quantity(numbers.pressures[points.y.size() - 1], Dimension::pressure, 3);
   }
+  if (damping.title.empty()) return;
+  points.name = numbers.slips ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
+                              : "without slip";
+  if (any_bar) points.name += sample ? ", 95 %" : ", ± error";
+  damping.curves.push_back(std::move(points));
 }
 
-using Panels = std::array<Panel, 6>;
-
-/// Adds the window of the fit, the limits of theories for vanishing load, and the exponential law
-/// with the fitted decay length l.
-void add_references(const StudyResult& result, Panels& panels) {
-  auto& [gaps, areas, stiffness, damping, ratios, lengths] = panels;
-  if (!result.configuration.window)
-    gaps.ranges = {{.low = 1, .high = 2.5, .name = "window of the fit"}};
-  const StudyTheories theories = result.theories();
-  areas.lines = {{.at = theories.bgt_area_slope, .name = "Bush, Gibson, Thomas"}};
-  if (!result.configuration.has(ContactModel::persson))
-    areas.lines.push_back({.at = theories.persson_area_slope, .name = "Persson"});
-  Curve edge = band("boundary elements, less the edge", result.pressures,
-                    result.at_pressures([&](const Realisation& r, std::size_t k) {
-                      return r.spots[k].corrected_area_fraction / result.pressures[k] *
-                             r.moments.rms_slope() * result.configuration.material.contact_modulus;
-                    }));
-  edge.style = Style::dotted;
-  edge.color = 0;
-  areas.curves.push_back(std::move(edge));
-  // A body that is not a half-space has no ratio of moduli.
-  const double modulus_ratio = result.configuration.pressed().modulus_ratio();
-  if (!ratios.curves.empty() && std::isfinite(modulus_ratio))
-    ratios.lines = {{.at = modulus_ratio,
-                     .name = "G^{*}/E^{*}",
-                     .quantity = "modulus_ratio"}};
-  const EnsembleMean length = result.decay_length();
-  if (std::isfinite(length.mean)) {
-    gaps.title = "decay length l = " +
-                 interval_text(length.mean, length.low, length.high, Dimension::length);
-    lengths.lines = {{.at = length.mean, .name = "l of the fit", .quantity = "decay_length"}};
-  }
-  for (const Realisation& one : result.realisations) {
-    const LocalDecayLength& local = one.of(ContactModel::bem).local;
-    lengths.curves.push_back(
-        {.name = lengths.curves.empty() ? "between loads, of each surface" : "",
-         .x = local.mean_gap,
-         .y = local.decay_length,
-         .style = Style::line_and_points,
-         .color = 0});
-  }
-  if (result.configuration.adhesion) return;
-  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  Curve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", result.pressures,
-                   result.damping(&DampingPoint::damping_constant_closed_form));
-  law.low = law.high = {};
-  law.quantity = "damping_constant_closed_form";
-  law.style = Style::dashed;
-  law.color = 7;
-  damping.curves.push_back(std::move(law));
-}
-
-/// Panels of one point of the parameter grid: gap, area, stiffness and damping over the pressure,
-/// with bands of 95 %; tangential over normal stiffness, and local decay lengths over the gap.
-Panels panels_of(const StudyResult& result) {
-  Panels panels;
-  auto& [gaps, areas, stiffness, damping, ratios, lengths] = panels;
-  for (Panel& panel : panels) {
-    panel.x = axis_of("pressure", true, "nominal pressure p");
-    panel.second_x = SecondAxis{.label = "p/(E^{*}h')", .factor = 1 / result.contact_scale};
-  }
-  damping.second_x =
-      SecondAxis{.label = "normal force F", .unit = "N", .factor = result.grid.area()};
-  lengths.x = axis_of("mean_gap", false, "mean gap ū");
-  lengths.second_x = {};
-  gaps.y = {.quantity = "mean_gap_over_rms_height", .label = "mean gap ū/h_{rms}"};
-  areas.y = {.label = "area over load, A E^{*}h'/F"};
-  stiffness.y = {.label = "stiffness K h_{rms}/F"};
-  damping.y = axis_of("damping_constant", true, "damping constant γ");
-  ratios.y = {.label = "stiffness ratio K_t/K", .low = 0};
-  lengths.y = axis_of("local_decay_length", false, "local decay length −dū/d ln p");
-  lengths.y.low = 0;
-  gaps.legend = Legend::bottom_left;
-  damping.legend = Legend::top_left;
-  for (const StudyModel& model : result.models()) {
-    const auto scaled = [&](auto value) {
-      return result.at_pressures([&](const Realisation& r, std::size_t k) {
-        const auto& samples = r.of(model.id).curve.samples;
-        return k < samples.size() && samples[k].converged ? double(value(r, samples[k]))
-                                                          : ForceSample::unknown;
-      });
-    };
-    // Models are numbered as in the list of all models, and the number sets the colour, so each
-    // model has the same colour in every figure.
-    const auto add = [&](Panel& panel, const std::vector<EnsembleMean>& y) {
-      panel.curves.push_back(band("", result.pressures, y));
-      panel.curves.back().color = int(model.id);
-    };
-    add(gaps, scaled([](const Realisation& r, const ForceSample& sample) {
-          return sample.mean_gap / r.heights.rms_height;
-        }));
-    gaps.curves.back().name = model.title;
-    add(areas, scaled([&](const Realisation& r, const ForceSample& sample) {
-          return sample.contact_area_fraction / sample.pressure * r.moments.rms_slope() *
-                 result.configuration.material.contact_modulus;
-        }));
-    add(stiffness, scaled([](const Realisation& r, const ForceSample& sample) {
-          return sample.normal_stiffness * r.heights.rms_height / sample.force;
-        }));
-    add(ratios, scaled([](const Realisation&, const ForceSample& sample) {
-          return sample.tangential_stiffness / sample.normal_stiffness;
-        }));
-    ratios.curves.back().name = model.title;
-    if (!result.configuration.adhesion)
-      add(damping, result.damping(&DampingPoint::damping_constant_without_slip, model.id));
-  }
-  add_references(result, panels);
-  if (!result.configuration.adhesion) add_answer(result, damping);
-  return panels;
+/// Leaves out values that are far from all others: those of the curvature of a curve may be.
+std::vector<double> near(std::vector<double> values, const std::vector<Curve>& others) {
+  double low = HUGE_VAL, high = 0;
+  for (const Curve& curve : others)
+    if (curve.color == 0 || curve.color == 7)
+      for (const double value : curve.y)
+        if (value > 0) {
+          low = std::min(low, value);
+          high = std::max(high, value);
+        }
+  for (double& value : values)
+    if (!(value > low / 5 && value < 5 * high)) value = StudyNumbers::unknown;
+  return values;
 }
 
 /// Whether a panel has a finite value to show; false if no model computes its quantity.
-bool shows_anything(const Panel* panel) {
-  return std::ranges::any_of(panel->curves, [&](const Curve& curve) {
+bool shows_anything(const Panel& panel) {
+  return std::ranges::any_of(panel.curves, [&](const Curve& curve) {
     return std::ranges::any_of(curve.y, [&](double value) {
-      return std::isfinite(value) && (value > 0 || !panel->y.logarithmic);
+      return std::isfinite(value) && (value > 0 || !panel.y.logarithmic);
     });
   });
 }
 
-/// Gives all panels the same limits, which contain all their curves and bands, so that they can be
-/// compared.
+/// Gives panels the same limits, which contain all their curves, bands and reference lines.
 void share_limits(const std::vector<Panel*>& panels) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Panel* panel : panels)
-    for (const Curve& curve : panel->curves)
-      for (const auto* values : {&curve.y, &curve.low, &curve.high})
-        for (const double value : *values)
-          if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic) &&
-              (values != &curve.low || curve.style != Style::points)) {
-            low = std::min(low, value);
-            high = std::max(high, value);
-          }
   const bool logarithmic = panels.front()->y.logarithmic;
+  const auto hold = [&](double value) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (const Panel* panel : panels) {
+    for (const Curve& curve : panel->curves) {
+      std::ranges::for_each(curve.y, hold);
+      std::ranges::for_each(curve.high, hold);
+      if (curve.style != Style::points) std::ranges::for_each(curve.low, hold);
+    }
+    for (const ReferenceLine& line : panel->lines)
+      if (!line.vertical) hold(line.at);
+  }
   const std::optional<double> fixed = panels.front()->y.low;
   if (fixed) low = std::min(low, *fixed);
   if (!(low < high)) return;
@@ -216,35 +140,355 @@ void share_limits(const std::vector<Panel*>& panels) {
   }
 }
 
+/// Makes the pictures of one point of the parameter grid.
+class Pictures {
+ public:
+  explicit Pictures(const StudyNumbers& numbers)
+      : n_(numbers), slope_of_(numbers.contact_modulus) {}
+
+  std::vector<Figure> all() {
+    of_gap();
+    of_curves("area-load", "Contact area",
+              "True contact area over load. Summits of Greenwood–Williamson models do not interact "
+              "unless the model says so. The theories (thin lines) hold for small loads. On a grid "
+              "the contact area is too large by about half of the cells at its edge; the dotted "
+              "curve is corrected for this.",
+              "area over load, A E^{*}h'/F", [this](std::size_t i, const ForceSample& sample) {
+                return sample.contact_area_fraction / sample.pressure * n_.rms_slope[i] * slope_of_;
+              });
+    add_theories(pictures_.back().panels.front());
+    of_curves(
+        "stiffness-load", "Normal stiffness",
+        "Normal stiffness over force, in units of 1/h_{rms}. For an exponential law it is the "
+        "constant h_{rms}/l.",
+        "stiffness K h_{rms}/F", [this](std::size_t i, const ForceSample& sample) {
+          return sample.normal_stiffness * n_.rms_height[i] / sample.force;
+        });
+    if (n_.motion) of_damping();
+    of_curves("stiffness-ratio", "Tangential over normal stiffness",
+              "The closed forms assume K_t = (G^{*}/E^{*})K, which holds for circular spots; "
+              "stiffnesses computed for the real contacts show how accurate that is here.",
+              "stiffness ratio K_t/K", [](std::size_t, const ForceSample& sample) {
+                return sample.tangential_stiffness / sample.normal_stiffness;
+              });
+    finish_ratio(pictures_.back().panels.front());
+    of_lengths();
+    if (n_.motion) of_ratios();
+    std::erase_if(pictures_,
+                  [](const Figure& picture) { return !shows_anything(picture.panels.front()); });
+    return std::move(pictures_);
+  }
+
+ private:
+  Panel& add(const char* kind, const char* title, std::string caption, Axis y) {
+    Panel panel{.x = axis_of("pressure", true, "nominal pressure p"), .y = std::move(y)};
+    if (std::isfinite(n_.contact_scale))
+      panel.second_x = SecondAxis{.label = "p/(E^{*}h')", .factor = 1 / n_.contact_scale};
+    pictures_.push_back({.kind = kind,
+                         .title = title,
+                         .caption = std::move(caption),
+                         .panels = {std::move(panel)}});
+    return pictures_.back().panels.front();
+  }
+
+  /// A number of the force curve of each model over the pressure.
+  Panel& of_curves(const char* kind, const char* title, std::string caption, const char* label,
+                   const std::function<double(std::size_t, const ForceSample&)>& number) {
+    Panel& panel = add(kind, title, std::move(caption), {.label = label});
+    for (const StudyNumbers::Model& model : n_.models)
+      panel.curves.push_back(
+          band(model.title, n_.pressures,
+               at_pressures(n_,
+                            [&](std::size_t i, std::size_t k) {
+                              const auto& samples = model.curves[i];
+                              if (k >= samples.size() || !samples[k].converged) return n_.unknown;
+                              ForceSample sample = samples[k];
+                              sample.pressure = n_.pressures[k];  // without the rounding of its sum
+                              return number(i, sample);
+                            }),
+               model.color, Style::line_and_points));
+    // Where adhesion holds surfaces together, a number over the load grows without limit.
+    std::vector<double> values = panel.curves.empty() ? std::vector<double>() : panel.curves[0].y;
+    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+    panel.y.logarithmic = !values.empty() && spans_decades(values);
+    return panel;
+  }
+
+  void of_gap() {
+    Panel& panel = of_curves(
+        "gap-load", "Mean gap",
+        "Mean gap of the deformed surfaces. A straight line means an exponential law, of which the "
+        "slope is −l/h_{rms}; the dashed line is the one fitted to the boundary elements in the "
+        "shaded window.",
+        "mean gap ū/h_{rms}", [this](std::size_t i, const ForceSample& sample) {
+          return sample.mean_gap / n_.rms_height[i];
+        });
+    panel.y.quantity = "mean_gap_over_rms_height";
+    panel.legend = Legend::bottom_left;
+    const EnsembleMean length = decay_length();
+    if (!std::isfinite(length.mean)) return;
+    panel.title = "decay length l = " +
+                  interval_text(length.mean, length.low, length.high, Dimension::length);
+    const auto window = [&](double PressureWindow::*end) {
+      std::vector<double> ends;
+      for (const ExponentialFit& fit : n_.fits) ends.push_back(fit.window.*end);
+      return mean_of(n_, ends).mean;
+    };
+    panel.ranges = {{.low = window(&PressureWindow::pressure_min),
+                     .high = window(&PressureWindow::pressure_max),
+                     .vertical = true,
+                     .name = "window of the fit"}};
+    Curve law = band("exponential law, fitted", n_.pressures,
+                     at_pressures(n_,
+                                  [this](std::size_t i, std::size_t k) {
+                                    const ExponentialFit& fit = n_.fits[i];
+                                    return fit.decay_length / n_.rms_height[i] *
+                                           std::log(fit.reference_pressure / n_.pressures[k]);
+                                  }),
+                     7, Style::dashed);
+    law.quantity = "fitted_gap_over_rms_height";
+    law.low = law.high = {};
+    panel.curves.push_back(std::move(law));
+  }
+
+  /// The limits of theories for vanishing load, and the area without the cells in excess.
+  void add_theories(Panel& panel) {
+    panel.lines = {{.at = std::sqrt(2 * std::numbers::pi), .name = "Bush, Gibson, Thomas"}};
+    if (std::ranges::none_of(n_.models, [](const StudyNumbers::Model& model) {
+          return model.color == int(ContactModel::persson);
+        }))
+      panel.lines.push_back({.at = std::sqrt(8 / std::numbers::pi), .name = "Persson"});
+    if (!n_.corrected_area_fraction.empty())
+      panel.curves.push_back(band("boundary elements, less the edge", n_.pressures,
+                                  at_pressures(n_,
+                                               [this](std::size_t i, std::size_t k) {
+                                                 return n_.corrected_area_fraction[i][k] /
+                                                        n_.pressures[k] * n_.rms_slope[i] *
+                                                        slope_of_;
+                                               }),
+                                  0, Style::dotted));
+  }
+
+  void of_damping() {
+    const bool drag = std::holds_alternative<Drag>(*n_.motion);
+    const char *fitted = drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l",
+               *small = drag ? "Eq. (15), F″ of the curve" : "Eq. (12), F″ of the curve";
+    Panel& panel = add(
+        "damping-curve", "Damping",
+        "Damping constant, as points for the motion as described; lines are without slip: by the "
+        "theorem W = ½∮s²dK_t, which holds at any amplitude, by the closed form with the fitted "
+        "law "
+        "(dashed), and by the same form with the curvature of the boundary elements (dotted; "
+        "points "
+        "far from all others are left out). No value is shown where the curve of a model does not "
+        "cover the cycle or the error is larger than the value." +
+            std::string(" ") + motion_sentence(n_),
+        axis_of("damping_constant", true, "damping constant γ"));
+    panel.second_x = SecondAxis{.label = "normal force F", .unit = "N", .factor = n_.nominal_area};
+    if (const double constant = closed_form::damping_constant(1, *n_.motion);
+        std::isfinite(constant))
+      panel.second_y = SecondAxis{.label = "work per cycle W", .unit = "J", .factor = 1 / constant};
+    panel.legend = Legend::top_left;
+    for (const StudyNumbers::Model& model : n_.models)
+      panel.curves.push_back(
+          band(model.title, n_.pressures, model.damping_constant, model.color,
+               // The points in the same colour are those of the motion as described.
+               model.color == int(ContactModel::bem) ? Style::line : Style::line_and_points));
+    Curve law = band(fitted, n_.pressures, n_.closed_form, 7, Style::dashed);
+    law.low = law.high = {};
+    law.quantity = "damping_constant_closed_form";
+    panel.curves.push_back(std::move(law));
+    add_answer(n_, panel);
+    Curve curvature = band(small, n_.pressures, n_.small_amplitude, 7, Style::dotted);
+    curvature.low = curvature.high = {};
+    curvature.quantity = "small_amplitude_damping_constant";
+    curvature.y = near(std::move(curvature.y), panel.curves);
+    panel.curves.push_back(std::move(curvature));
+  }
+
+  /// A ratio that no model computes, and all take from the moduli, is no result.
+  void finish_ratio(Panel& panel) {
+    panel.lines = {{.at = n_.modulus_ratio, .name = "G^{*}/E^{*}", .quantity = "modulus_ratio"}};
+    const bool computed = std::ranges::any_of(panel.curves, [&](const Curve& curve) {
+      return std::ranges::any_of(
+          curve.y, [&](double value) { return std::abs(value - n_.modulus_ratio) > 1e-6 * value; });
+    });
+    if (!computed) panel.curves.clear();
+    share_limits({&panel});
+  }
+
+  EnsembleMean decay_length() const {
+    std::vector<double> lengths;
+    for (const ExponentialFit& fit : n_.fits) lengths.push_back(fit.decay_length);
+    return mean_of(n_, lengths);
+  }
+
+  void of_lengths() {
+    Panel& panel = add("local-length", "Local decay length",
+                       "Local decay length of each surface between neighbouring loads. An "
+                       "exponential law gives a horizontal line.",
+                       axis_of("local_decay_length", false, "local decay length −dū/d ln p"));
+    panel.x = axis_of("mean_gap", false, "mean gap ū");
+    panel.second_x = {};
+    panel.y.low = 0;
+    if (const double length = decay_length().mean; std::isfinite(length))
+      panel.lines = {{.at = length, .name = "l of the fit", .quantity = "decay_length"}};
+    for (std::size_t i = 0; i < std::min(n_.local.size(), max_single_curves); ++i)
+      panel.curves.push_back({.name = i == 0 ? "between loads, of each surface" : "",
+                              .x = n_.local[i].mean_gap,
+                              .y = n_.local[i].decay_length,
+                              .style = Style::line_and_points,
+                              .color = 0});
+  }
+
+  void of_ratios() {
+    Panel& panel = add("damping-ratio", "Damping over that of boundary elements",
+                       "Damping without slip over that computed for the boundary elements of the "
+                       "same surfaces: by the closed form with the fitted law (dashed), and from "
+                       "the force curves of other models. It shows the error of using either." +
+                           std::string(" ") + motion_sentence(n_),
+                       {.label = "γ over that of boundary elements"});
+    Means ratio = n_.deviation;
+    for (EnsembleMean& one : ratio) one = {one.mean + 1, one.low + 1, one.high + 1};
+    panel.curves.push_back(
+        band(std::holds_alternative<Drag>(*n_.motion) ? "Eq. (16), fitted l" : "Eq. (12), fitted l",
+             n_.pressures, ratio, 7, Style::dashed));
+    for (const StudyNumbers::Model& model : n_.models)
+      if (model.color != int(ContactModel::bem))
+        panel.curves.push_back(
+            band(model.title, n_.pressures, model.over_bem, model.color, Style::line_and_points));
+    std::vector<double> values;
+    for (const Curve& curve : panel.curves)
+      std::ranges::copy_if(curve.y, std::back_inserter(values),
+                           [](double value) { return std::isfinite(value); });
+    panel.y.logarithmic = !values.empty() && spans_decades(values);
+    panel.lines = {{.at = 1, .name = "boundary elements"}};
+  }
+
+  const StudyNumbers& n_;
+  const double slope_of_;  ///< E*, which makes h' a pressure
+  std::vector<Figure> pictures_ = {};
+};
+
 }  // namespace
 
+std::string motion_in_words(const Oscillation& motion, double excursion) {
+  const auto quantity = [](double value, Dimension dimension) {
+    return format_quantity(value, dimension, 3);
+  };
+  const auto frequency = [&](double omega) {
+    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
+  };
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    return fmt::format(
+        "slow shear{} at {} under {} at {}",
+        std::isnan(excursion) ? "" : " over " + quantity(excursion, Dimension::length),
+        quantity(drag->drag_velocity, Dimension::velocity),
+        quantity(drag->normal_amplitude, Dimension::length), frequency(drag->angular_frequency));
+  const auto& equal = std::get<EqualFrequency>(motion);
+  return fmt::format("{} along and {} across the surface, {} apart, at {}",
+                     quantity(equal.tangential_amplitude, Dimension::length),
+                     quantity(equal.normal_amplitude, Dimension::length),
+                     quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
+}
+
+std::string motion_sentence(const StudyNumbers& numbers) {
+  return "Motion: " + motion_in_words(*numbers.motion, numbers.excursion) +
+         (numbers.hold == Hold::indentation ? ", mean indentation held"
+          : numbers.hold == Hold::force     ? ", mean force held"
+                                            : ", mean force held where the contact lifts off") +
+         (std::isnan(numbers.direction) ? "" : ", " + direction_in_words(numbers.direction)) +
+         (std::isnan(numbers.friction_coefficient)
+              ? ", without slip"
+              : fmt::format(", µ = {:g}", numbers.friction_coefficient)) +
+         ".";
+}
+
+StudyNumbers numbers_of(const StudyResult& result) {
+  const StudyConfiguration& configuration = result.configuration;
+  StudyNumbers numbers{.pressures = result.pressures,
+                       .nominal_area = result.grid.area(),
+                       .contact_modulus = configuration.material.contact_modulus,
+                       .modulus_ratio = configuration.material.modulus_ratio(),
+                       .contact_scale = result.contact_scale,
+                       .twin = configuration.of_twin()};
+  for (const StudyModel& model : result.models()) {
+    auto& one = numbers.models.emplace_back(
+        StudyNumbers::Model{.color = int(model.id), .title = model.title});
+    for (const Realisation& surface : result.realisations)
+      one.curves.push_back(surface.of(model.id).curve.samples);
+    if (configuration.adhesion) continue;
+    one.damping_constant = result.damping("damping_constant_without_slip", model.id);
+    one.over_bem = result.damping_over_bem(&DampingPoint::work_per_cycle_without_slip, model.id);
+  }
+  for (const Realisation& surface : result.realisations) {
+    const ModelResult& bem = surface.of(ContactModel::bem);
+    numbers.rms_height.push_back(surface.heights.rms_height);
+    numbers.rms_slope.push_back(surface.moments.rms_slope());
+    numbers.fits.push_back(bem.fit);
+    numbers.local.push_back(bem.local);
+    auto& corrected = numbers.corrected_area_fraction.emplace_back();
+    for (const SpotStatistics& spots : surface.spots)
+      corrected.push_back(spots.corrected_area_fraction);
+  }
+  if (configuration.adhesion) return numbers;
+  const StudySolution answer = solution_of(result);
+  numbers.motion = configuration.motion;
+  numbers.hold = configuration.hold();
+  numbers.excursion = configuration.known.excursion;
+  numbers.friction_coefficient = configuration.known.friction_coefficient;
+  numbers.direction = answer.direction;
+  numbers.slips = answer.slips();
+  numbers.damping_constant = answer.damping_constant;
+  numbers.closed_form = result.damping("damping_constant_closed_form");
+  numbers.small_amplitude = result.damping("small_amplitude_damping_constant");
+  numbers.deviation = result.deviation();
+  return numbers;
+}
+
+std::vector<Figure> study_pictures(const StudyNumbers& numbers) { return Pictures(numbers).all(); }
+
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied) {
-  Figure figure{.kind = "study",
-                .caption =
-                    "Gap, area, stiffness and damping of all models over the pressure, with "
-                    "95 % bands, and the damping constants of the motion as described."};
+  Figure figure{.kind = "study"};
   figure.columns = results.size() == 1 ? 2 : int(results.size());
-  std::vector<Panels> points;
-  for (const StudyResult& result : results) points.push_back(panels_of(result));
-  for (std::size_t quantity = 0; quantity < std::tuple_size_v<Panels>; ++quantity) {
+  std::vector<std::vector<Figure>> points;
+  for (const StudyResult& result : results) points.push_back(study_pictures(numbers_of(result)));
+  for (const Figure& first : points.front()) {
     std::vector<Panel*> row;
-    for (auto& point : points) row.push_back(&point[quantity]);
-    if (!std::ranges::all_of(row, shows_anything)) continue;
+    for (std::vector<Figure>& point : points)
+      if (const auto same = std::ranges::find(point, first.kind, &Figure::kind);
+          same != point.end())
+        row.push_back(&same->panels.front());
+    // What a point cannot compute is not compared.
+    if (row.size() < points.size()) continue;
     if (row.size() > 1) share_limits(row);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      Panel& panel = points[i][quantity];
-      // Only panels in the first column have a legend.
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      Panel& panel = *row[i];
+      // The legend of the models is that of the first panel; only panels in the first column have one.
+      for (Curve& curve : panel.curves)
+        if (i > 0 || (!figure.panels.empty() &&
+                      std::ranges::any_of(results.front().models(), [&](const StudyModel& model) {
+                        return curve.name == model.title;
+                      })))
+          curve.name.clear();
       if (i > 0) {
-        for (Curve& curve : panel.curves) curve.name.clear();
         for (ReferenceLine& line : panel.lines) line.name.clear();
         for (ShadedRange& range : panel.ranges) range.name.clear();
       }
-      if (quantity == 0 && points.size() > 1)
+      if (first.kind == "damping-curve" && i == 0 &&
+          !std::isnan(results.front().configuration.known.friction_coefficient))
+        panel.curves.front().name = "without slip, as all lines";
+      if (figure.panels.size() < row.size() && row.size() > 1)
         panel.title = describe_point(varied, results[i].configuration) +
                       (panel.title.empty() ? "" : ", " + panel.title);
-      figure.panels.push_back(std::move(panel));
+      figure.panels.push_back(panel);
     }
   }
+  figure.caption =
+      "Gap, area, stiffness and damping of all models over the pressure, with 95 % bands; the "
+      "colours of the models are those named in the first panel." +
+      (results.front().configuration.adhesion ? ""
+                                              : " " + motion_sentence(numbers_of(results.front())));
   return figure;
 }
 

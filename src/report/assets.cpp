@@ -16,14 +16,11 @@
 
 SALEBRA_EMBED(html, SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/report.html"));
 SALEBRA_EMBED(css, SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/report.css"));
-SALEBRA_EMBED(javascript,
-              SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/format.js")
-                  SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/figure.js")
-                      SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/surface.js")
-                          SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/contact.js")
-                              SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/damping.js")
-                                  SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/explorer.js")
-                                      SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/page.js"));
+SALEBRA_EMBED(javascript, SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/format.js")
+                              SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/figure.js")
+                                  SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/surface.js")
+                                      SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/explorer.js")
+                                          SALEBRA_BYTES(SALEBRA_REPORT_PAGE "/src/page.js"));
 #ifdef SALEBRA_REPORT_PLOTLY
 SALEBRA_EMBED(plotly, SALEBRA_BYTES(SALEBRA_REPORT_PLOTLY));
 #endif

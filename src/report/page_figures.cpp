@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <salebra/base/error.hpp>
@@ -15,6 +17,7 @@
 
 #include "figures/axes.hpp"
 #include "figures/figure_object.hpp"
+#include "figures/study_numbers.hpp"
 #include "map_bytes.hpp"
 
 namespace salebra::detail {
@@ -35,6 +38,9 @@ class PageFigures {
 
   Json all(Index map_side) {
     of_picture(map_side);
+    const figures::StudyNumbers numbers = study_numbers();
+    for (const Figure& picture : figures::study_pictures(numbers))
+      all_.push_back(figures::figure_object(picture));
     of_spots();
     if (file_.has(where_ + "adhesion/mean_gap"))
       add("adhesion-loop", "Pressure over mean gap in a cycle",
@@ -56,17 +62,43 @@ class PageFigures {
           "interval. If the band still drifts at the end, use more seeds.",
           std::move(panel));
     }
+    Json page;
+    page["figures"] = std::move(all_);
+    if (numbers.motion) page["motion"] = figures::motion_sentence(numbers);
+    return page;
+  }
+
+  /// l/h_{rms} of all points of the parameter grid.
+  Json overview(const std::vector<std::string>& names) {
+    Curve curve = estimate("", "", "decay_length_over_rms_height", "point", 0);
+    curve.style = Style::points;
+    std::string points;
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      curve.x[i] = double(i + 1);
+      if (i < names.size() && !names[i].empty())
+        points += fmt::format("{}{}: {}", points.empty() ? "; point " : ", ", i + 1, names[i]);
+    }
+    add("overview", "The points of the parameter grid",
+        "l/h_{rms} of boundary elements at each point, with 95 % intervals" +
+            figures::plain_text(points) + ". Choose a point above to see its results.",
+        {.x = {.quantity = "point", .label = "point"},
+         .y = axis_of("decay_length_over_rms_height", false, "l/h_{rms}"),
+         .curves = {std::move(curve)}});
     return std::move(all_);
   }
 
  private:
+  [[noreturn]] void refuse(const std::string& name, const std::string& what) const {
+    throw InvalidInput(file_.file().string(),
+                       fmt::format("{}{} {}; the file is damaged", where_, name, what));
+  }
+
   std::vector<double> list(const std::string& name, std::size_t size) const {
+    if (!file_.has(where_ + name)) refuse(name, "is missing");
     std::vector<double> values = file_.numbers(where_ + name);
-    if (values.size() != size)
-      throw InvalidInput(file_.file().string(),
-                         fmt::format("{}{} has {} values, {} are needed; the file is damaged",
-                                     where_, name, values.size(), size));
-    return values;
+    if (values.size() == size) return values;
+    refuse(name, values.empty() ? "has no values"
+                                : fmt::format("has {} values, {} are needed", values.size(), size));
   }
 
   /// The mean of a quantity with its limits, over a coordinate.
@@ -85,6 +117,158 @@ class PageFigures {
       curve.high = list(path + "_high", curve.x.size());
     }
     return curve;
+  }
+
+  std::string text(const std::string& group, const char* name) const {
+    return file_.text_attribute(where_ + group, name).value_or("");
+  }
+  double attribute(const std::string& group, const char* name) const {
+    return file_.number_attribute(where_ + group, name).value_or(ForceSample::unknown);
+  }
+
+  /// A part of a dataset of equal parts, which has `size` values; empty if there is no dataset.
+  std::vector<double> part(const std::string& name, std::size_t number, std::size_t parts,
+                           std::size_t size) const {
+    if (!file_.has(where_ + name)) return {};
+    const std::vector<double> all = list(name, parts * size);
+    const auto begin = all.begin() + std::ptrdiff_t(number * size);
+    return {begin, begin + std::ptrdiff_t(size)};
+  }
+
+  /// The means of a quantity at the pressures, of one of several models.
+  std::vector<StatedMean> means(const std::string& name, std::size_t model = 0,
+                                std::size_t models = 1) const {
+    std::vector<StatedMean> means;
+    for (const auto& [end, member] :
+         {std::pair<const char*, double StatedMean::*>("_mean", &StatedMean::mean),
+          {"_low", &StatedMean::low},
+          {"_high", &StatedMean::high},
+          {"_error", &StatedMean::error}}) {
+      const std::vector<double> values = part(name + end, model, models, pressures_.size());
+      if (!values.empty()) means.resize(values.size());
+      for (std::size_t k = 0; k < values.size(); ++k) means[k].*member = values[k];
+    }
+    return means;
+  }
+
+  /// A dataset with one row for each surface; empty if there is none.
+  std::vector<std::vector<double>> rows(const std::string& name, std::size_t surfaces,
+                                        std::size_t number = 0, std::size_t parts = 1) const {
+    std::vector<std::vector<double>> rows;
+    if (!file_.has(where_ + name)) return rows;
+    const std::size_t values = file_.numbers(where_ + name).size(),
+                      size = values / parts / surfaces;
+    const std::vector<double> all = part(name, number, parts, size * surfaces);
+    for (auto row = all.begin(); rows.size() < surfaces; row += std::ptrdiff_t(size))
+      rows.emplace_back(row, row + std::ptrdiff_t(size));
+    return rows;
+  }
+
+  /// The numbers of the pictures that the program draws of a study in memory.
+  figures::StudyNumbers study_numbers() const {
+    figures::StudyNumbers numbers{.pressures = pressures_};
+    if (!file_.has(where_ + "surface/rms_height")) return numbers;
+    numbers.rms_height = file_.numbers(where_ + "surface/rms_height");
+    const std::size_t surfaces = numbers.rms_height.size();
+    if (surfaces == 0) refuse("surface/rms_height", "has no values");
+    numbers.rms_slope = list("surface/rms_slope", surfaces);
+    numbers.nominal_area = attribute("surface", "size_x") * attribute("surface", "size_y");
+    numbers.contact_scale = attribute("surface", "contact_scale");
+    // Files of earlier versions have the moduli only with damping.
+    for (const char* group : {"damping", "surface"})
+      for (const auto& [name, member] : {std::pair("contact_modulus", &numbers.contact_modulus),
+                                         {"modulus_ratio", &numbers.modulus_ratio}})
+        *member = std::fmax(*member, attribute(group, name));
+    numbers.twin = text("fit", "interval_method").find("prediction") != std::string::npos;
+    const std::vector<std::string> models = file_.labels(where_ + "curve/model");
+    for (std::size_t m = 0; m < models.size(); ++m) {
+      numbers.models.push_back(model(models[m], m, models.size(), surfaces));
+      if (models[m] == "bem") add_boundary_elements(numbers, m, models.size());
+    }
+    numbers.corrected_area_fraction = rows("spots/corrected_area_fraction", surfaces);
+    if (file_.has(where_ + "damping/force")) add_motion(numbers);
+    return numbers;
+  }
+
+  figures::StudyNumbers::Model model(const std::string& name, std::size_t m, std::size_t models,
+                                     std::size_t surfaces) const {
+    const auto known = std::ranges::find(contact_models(), name, &StudyModel::name);
+    figures::StudyNumbers::Model model;
+    model.title =
+        figures::plain_text(known == contact_models().end() ? name : std::string(known->title));
+    if (known != contact_models().end()) model.color = int(known->id);
+    const std::size_t loads = pressures_.size();
+    model.curves.assign(surfaces, std::vector<ForceSample>(loads));
+    const auto fill = [&](const char* column, const auto& set) {
+      const std::vector<double> values =
+          part(std::string("curve/") + column, m, models, surfaces * loads);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        set(model.curves[i / loads][i % loads], values[i]);
+    };
+    if (!file_.has(where_ + "curve/converged")) refuse("curve/converged", "is missing");
+    fill("converged", [](ForceSample& one, double value) { one.converged = value != 0; });
+    for (const auto& [column, member] :
+         {std::pair("mean_gap", &ForceSample::mean_gap),
+          {"force", &ForceSample::force},
+          {"contact_area_fraction", &ForceSample::contact_area_fraction},
+          {"normal_stiffness", &ForceSample::normal_stiffness},
+          {"tangential_stiffness", &ForceSample::tangential_stiffness}})
+      fill(column, [member](ForceSample& one, double value) { one.*member = value; });
+    // Files of version 1.0 store a loss without slip without the ending "_without_slip".
+    const auto without_slip = [&](const std::string& loss) {
+      return of_model(
+          loss + (file_.has(where_ + loss + "_without_slip_mean") ? "_without_slip" : ""), m,
+          models);
+    };
+    model.damping_constant = without_slip("damping/ensemble_damping_constant");
+    model.over_bem = without_slip("comparison/work_per_cycle");
+    return model;
+  }
+
+  std::vector<EnsembleMean> of_model(const std::string& name, std::size_t m,
+                                     std::size_t models) const {
+    const std::vector<StatedMean> all = means(name, m, models);
+    return {all.begin(), all.end()};
+  }
+
+  void add_boundary_elements(figures::StudyNumbers& numbers, std::size_t m,
+                             std::size_t models) const {
+    const std::size_t surfaces = numbers.rms_height.size();
+    numbers.closed_form = of_model("damping/ensemble_damping_constant_closed_form", m, models);
+    numbers.small_amplitude =
+        of_model("damping/ensemble_small_amplitude_damping_constant", m, models);
+    numbers.deviation = of_model("damping/ensemble_deviation", m, models);
+    const auto fit = [&](const char* name) {
+      std::vector<double> values = part(std::string("fit/") + name, m, models, surfaces);
+      values.resize(surfaces, ForceSample::unknown);
+      return values;
+    };
+    const auto length = fit("decay_length"), reference = fit("reference_pressure"),
+               least = fit("pressure_min"), most = fit("pressure_max");
+    const auto gaps = rows("local/mean_gap", surfaces, m, models),
+               lengths = rows("local/local_decay_length", surfaces, m, models);
+    for (std::size_t i = 0; i < surfaces; ++i) {
+      numbers.fits.push_back({.decay_length = length[i],
+                              .reference_pressure = reference[i],
+                              .window = {.pressure_min = least[i], .pressure_max = most[i]}});
+      if (!gaps.empty() && gaps.size() == lengths.size())
+        numbers.local.push_back({gaps[i], lengths[i]});
+    }
+  }
+
+  void add_motion(figures::StudyNumbers& numbers) const {
+    const auto given = [&](const char* name) { return attribute("damping", name); };
+    const double amplitude = given("normal_amplitude"), frequency = given("angular_frequency");
+    numbers.motion =
+        EqualFrequency{amplitude, given("tangential_amplitude"), given("phase"), frequency};
+    if (text("damping", "mode") == "drag")
+      numbers.motion = Drag{amplitude, given("drag_velocity"), frequency};
+    numbers.hold = parse_enum<Hold>(text("damping", "hold")).value_or(Hold::indentation);
+    numbers.excursion = given("excursion");
+    numbers.friction_coefficient = given("friction_coefficient");
+    numbers.direction = given("direction");
+    numbers.damping_constant = means("solution/damping_constant");
+    numbers.slips = text("solution", "slip_followed") == "yes";
   }
 
   void add(const char* name, const char* title, std::string caption, Panel panel) {
@@ -108,12 +292,6 @@ class PageFigures {
   /// The picture as the study kept it, with every stride-th point of its maps.
   SurfacePicture picture(Index map_side) const {
     const std::string group = where_ + "picture";
-    const auto text = [&](const char* name) {
-      return file_.text_attribute(group, name).value_or("");
-    };
-    const auto number = [&](const char* name) {
-      return file_.number_attribute(group, name).value_or(ForceSample::unknown);
-    };
     const auto lists = [&](const char* name) {
       const std::string path = group + "/" + name;
       return file_.has(path) ? file_.numbers(path) : std::vector<double>();
@@ -122,7 +300,7 @@ class PageFigures {
     const auto rows = Index(x.size()), columns = Index(y.size());
     const Index stride = stride_of(rows, columns, map_side);
     SurfacePicture picture;
-    picture.law = text("law");
+    picture.law = text("picture", "law");
     picture.stride = stride;
     picture.nx = (rows + stride - 1) / stride;
     picture.ny = (columns + stride - 1) / stride;
@@ -136,9 +314,9 @@ class PageFigures {
             every(stride, rows, columns, list(std::string("picture/") + name, x.size() * y.size()),
                   [](double value) { return float(value); });
     picture.mapped_load = Index(file_.number_attribute(group, "mapped_load").value_or(-1));
-    picture.hurst = number("hurst");
-    picture.hurst_low = number("hurst_low");
-    picture.hurst_high = number("hurst_high");
+    picture.hurst = attribute("picture", "hurst");
+    picture.hurst_low = attribute("picture", "hurst_low");
+    picture.hurst_high = attribute("picture", "hurst_high");
     picture.wavenumber = lists("wavenumber");
     picture.psd = lists("psd");
     picture.law_psd = lists("law_psd");
@@ -224,8 +402,8 @@ class PageFigures {
   }
 
   const ResultReader& file_;
-  const std::string& where_;
-  const std::vector<double>& pressures_;
+  const std::string where_;
+  const std::vector<double> pressures_;
   Json all_ = Json::array();
 };
 
@@ -234,6 +412,10 @@ class PageFigures {
 Json page_figures(const ResultReader& file, const std::string& where,
                   const std::vector<double>& pressures, Index map_side) {
   return PageFigures(file, where, pressures).all(map_side);
+}
+
+Json grid_figures(const ResultReader& file, const std::vector<std::string>& names) {
+  return PageFigures(file, "ensemble/", {}).overview(names);
 }
 
 }  // namespace salebra::detail

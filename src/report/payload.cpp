@@ -40,8 +40,6 @@ Json list(std::span<const double> values) {
   return json;
 }
 
-/// Number of surfaces whose curves are drawn singly; more would only blur the figure.
-constexpr std::size_t max_single_curves = 24;
 /// Number of points of all surface maps of a page. With several points of the parameter grid, each
 /// map has its share.
 constexpr double map_budget = 256. * 256.;
@@ -64,13 +62,11 @@ class Point {
       json["models"].push_back({{"name", model}, {"title", title(model)}});
     add(json, "surface", surface());
     add(json, "picture", picture(map_side));
-    add(json, "figures", page_figures(file_, where_, pressures_, map_side));
+    const Json page = page_figures(file_, where_, pressures_, map_side);
+    for (const auto& [name, part] : page.items()) add(json, name.c_str(), part);
     add(json, "curve",
-        by_model("curve/ensemble_", {"mean_gap", "separation", "contact_area_fraction",
-                                     "normal_stiffness", "tangential_stiffness"}));
-    add(json, "samples", samples());
+        of_bem("curve/ensemble_", {"mean_gap", "normal_stiffness", "tangential_stiffness"}));
     add(json, "fit", fit());
-    add(json, "local", local());
     add(json, "damping", damping());
     add(json, "adhesion", adhesion());
     if (has(solution("pressure"))) {
@@ -84,17 +80,6 @@ class Point {
       if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
     add(json, "assumptions", assumptions());
-    if (has("spots/ensemble_corrected_area_fraction_mean"))
-      json["edge_corrected_area_fraction"] =
-          estimate("spots/ensemble_corrected_area_fraction", 0, pressures_.size());
-    const std::string work = without_slip("work_per_cycle");
-    Json over_bem =
-        by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
-    if (!over_bem.is_null() && over_bem.contains(work)) {
-      Json ratios = over_bem[work];  // a copy: adding a key may invalidate references
-      over_bem["work_per_cycle"] = std::move(ratios);
-    }
-    add(json, "over_bem", std::move(over_bem));
     return json;
   }
 
@@ -178,13 +163,12 @@ class Point {
     return json;
   }
 
-  /// Nested objects: quantity → model → estimates over the pressures.
-  Json by_model(const std::string& prefix, const Names& quantities) const {
+  /// Nested objects: quantity → "bem" → estimates of the boundary elements over the pressures.
+  Json of_bem(const std::string& prefix, const Names& quantities) const {
     Json json;
     for (const std::string& quantity : quantities)
-      for (std::size_t m = 0; m < models_.size(); ++m)
-        if (has(prefix + quantity + "_mean"))
-          json[quantity][models_[m]] = estimate(prefix + quantity, m, pressures_.size());
+      if (bem() < models_.size() && has(prefix + quantity + "_mean"))
+        json[quantity]["bem"] = estimate(prefix + quantity, bem(), pressures_.size());
     return json;
   }
 
@@ -247,27 +231,6 @@ class Point {
     return json;
   }
 
-  /// Mean gap by boundary elements, one row per surface; null where the contact did not converge.
-  Json samples() const {
-    Json json;
-    if (bem() == models_.size() || !has("curve/mean_gap")) return json;
-    const std::size_t count = realisations(), loads = pressures_.size();
-    const auto gaps = part("curve/mean_gap", bem(), count * loads);
-    const auto converged = part("curve/converged", bem(), count * loads);
-    for (std::size_t r = 0; r < std::min(count, max_single_curves); ++r) {
-      Json row = Json::array();
-      for (std::size_t k = r * loads; k < (r + 1) * loads; ++k)
-        row.push_back(converged[k] != 0 ? number(gaps[k]) : Json());
-      json.push_back(std::move(row));
-    }
-    return json;
-  }
-
-  /// A quantity of the fits to the boundary-element curves, one value per surface.
-  std::vector<double> bem_column(const std::string& name) const {
-    return part("fit/" + name, bem(), realisations());
-  }
-
   Json fit() const {
     Json json;
     if (!has("fit/decay_length") || bem() == models_.size()) return json;
@@ -281,21 +244,6 @@ class Point {
     for (const char* name : {"law_off_at_min_gap", "law_off_at_max_gap", "fair"})
       if (const std::string column = std::string("fit/") + name; has(column))
         json["models"]["bem"][name] = number(part(column, bem(), 1)[0]);
-    for (const char* name : {"decay_length", "reference_pressure", "pressure_min", "pressure_max"})
-      if (has(std::string("fit/") + name)) json["bem"][name] = list(bem_column(name));
-    return json;
-  }
-
-  Json local() const {
-    Json json;
-    const auto midpoints = column("local/midpoint");
-    if (!midpoints || bem() == models_.size()) return json;
-    const std::size_t count = realisations(), points = midpoints->size();
-    for (const char* name : {"mean_gap", "local_decay_length"}) {
-      const auto values = part(std::string("local/") + name, bem(), count * points);
-      for (std::size_t r = 0; r < std::min(count, max_single_curves); ++r)
-        json[name].push_back(list(std::span(values).subspan(r * points, points)));
-    }
     return json;
   }
 
@@ -303,21 +251,11 @@ class Point {
     Json json;
     if (!has("damping/force")) return json;
     json["force"] = list(part("damping/force", 0, pressures_.size()));
-    struct Route {
-      // Key of the payload; dataset of the loss; dataset of the damping constant.
-      std::string name, work, constant;
-    };
-    for (const Route& route :
-         {Route{"law", "work_per_cycle_closed_form", "damping_constant_closed_form"},
-          Route{"small", "small_amplitude_work", "small_amplitude_damping_constant"},
-          Route{"curve", without_slip("work_per_cycle"), without_slip("damping_constant")}}) {
-      Json found;
-      for (const auto& [name, column] :
-           {std::pair{"work_per_cycle", route.work}, {"damping_constant", route.constant}})
-        if (Json means = by_model("damping/ensemble_", {column}); !means.is_null())
-          found[name] = std::move(means[column]);
-      add(json, route.name.c_str(), std::move(found));
-    }
+    for (const auto& [route, name] :
+         {std::pair<const char*, std::string>{"law", "damping_constant_closed_form"},
+          {"curve", without_slip("damping_constant")}})
+      if (Json means = of_bem("damping/ensemble_", {name}); !means.is_null())
+        json[route]["damping_constant"] = means[name];
     for (const char* name : {"max_force", "contact_time"})
       if (const std::string means = std::string("damping/ensemble_") + name + "_mean";
           has(means) && bem() < models_.size())
@@ -327,7 +265,6 @@ class Point {
         has(errors) && bem() < models_.size() && json.contains("curve"))
       json["curve"]["damping_constant"]["bem"]["error"] =
           list(part(errors, bem(), pressures_.size()));
-    add(json, "deviation", by_model("damping/ensemble_", {"deviation"}));
     for (const char* name : {"deviation_min", "deviation_max"})
       if (has(std::string("damping/") + name) && bem() < models_.size())
         json[name] = number(part(std::string("damping/") + name, bem(), 1)[0]);
@@ -430,12 +367,8 @@ Json report_payload(const ResultReader& results) {
   if (where.size() > 1) {
     const Names names = point_names(results, where.size());
     json["names"] = names;
-    for (const char* name : {"decay_length_over_rms_height", "area_slope"}) {
-      for (const char* member : {"mean", "low", "high"}) {
-        const std::string path = fmt::format("ensemble/ensemble_{}_{}", name, member);
-        if (results.has(path)) json["overview"][name][member] = list(results.numbers(path));
-      }
-    }
+    if (results.has("ensemble/ensemble_decay_length_over_rms_height_mean"))
+      json["figures"] = grid_figures(results, names);
   }
   const auto side = Index(std::sqrt(map_budget / double(where.size())));
   json["points"] = Json::array();
@@ -480,10 +413,23 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
     mean_force = force[i - 1] + (force[i] - force[i - 1]) * before / (before - after);
     break;
   }
-  damping["direct"].push_back(
-      {{"file", oscillation.file().filename().string()},
-       {"force", number(mean_force)},
-       {"work_per_cycle", number(*oscillation.number_attribute(group, "work_per_cycle"))}});
+  const double work = *oscillation.number_attribute(group, "work_per_cycle");
+  damping["direct"].push_back({{"file", oscillation.file().filename().string()},
+                               {"force", number(mean_force)},
+                               {"work_per_cycle", number(work)}});
+  for (Json& figure : payload["points"][0]["figures"].elements()) {
+    if (figure["kind"].text() != "damping-curve") continue;
+    Json& panel = figure["panels"][0];
+    panel["curves"].push_back(
+        {{"name", "direct simulation"},
+         {"quantity", "damping_constant"},
+         {"x", list(std::vector{mean_force / panel["second_x"]["factor"].number()})},
+         {"y", list(std::vector{work / panel["second_y"]["factor"].number()})},
+         {"low", Json::array()},
+         {"high", Json::array()},
+         {"style", "points"},
+         {"color", 8}});
+  }
 }
 
 }  // namespace salebra::detail

@@ -150,6 +150,9 @@ void write_surfaces(Table table, const StudyResult& result) {
   for (const Realisation& realisation : result.realisations) items.push_back(&realisation);
   table.columns(items, {"realisation"});
   table.attributes(result.grid);
+  table.group().attribute("contact_modulus", result.configuration.material.contact_modulus);
+  table.group().attribute("modulus_ratio", result.configuration.material.modulus_ratio());
+  table.group().attribute("contact_scale", result.contact_scale);
   std::string warnings, ensemble;
   for (const std::string& warning : result.warnings) warnings += warning + "\n";
   for (const EnsembleWarning& found : result.ensemble_warnings)
@@ -253,8 +256,10 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("contact_modulus", configuration.material.contact_modulus);
   if (configuration.body)
     group.attribute("datum", std::string(name_of(configuration.body->datum())));
-  if (const double friction = configuration.known.friction_coefficient; !std::isnan(friction))
-    group.attribute("friction_coefficient", friction);
+  for (const auto& [name, value] :
+       {std::pair("friction_coefficient", configuration.known.friction_coefficient),
+        {"excursion", configuration.known.excursion}})
+    if (!std::isnan(value)) group.attribute(name, value);
 }
 
 void write_solution(Table table, const StudyResult& result, const StudySolution& answer) {

@@ -112,15 +112,28 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
                    logarithms(numbers(found["damping"]["damping_constant"]["mean"])));
     ++curve;
   }
+  // The fitted law.
+  const double length = file.numbers("fit/decay_length").front(),
+               reference = file.numbers("fit/reference_pressure").front();
+  check_alike(drawing.column(1, curve, 1), each([&](auto k) {
+                return length / rms_height * std::log(reference / pressure[k]);
+              }));
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
   check_parallel(drawing.column(4, curve, 1),
                  logarithms(numbers(
                      answer["models"]["bem"]["damping"]["damping_constant_closed_form"]["mean"])));
-  // The window of the fit, from one to two and a half rms heights.
-  CHECK_THAT(drawing.script(), Contains("rectangle from graph 0,first 1 to graph 1,first 2.") &&
-                                   Contains("window of the fit"));
+  // The pressures of the fit, at mean gaps from two and a half rms heights to one.
+  const Values ends{file.numbers("fit/pressure_min").front(),
+                    file.numbers("fit/pressure_max").front()};
+  static const std::regex window(
+      "rectangle from first ([-0-9.e]+),graph 0 to first ([-0-9.e]+),graph 1");
+  const std::string script = drawing.script();
+  std::smatch found;
+  REQUIRE(std::regex_search(script, found, window));
+  check_parallel({std::stod(found[1]), std::stod(found[2])}, logarithms(ends));
+  CHECK_THAT(script, Contains("window of the fit"));
 
   // Two surfaces have intervals, with the mean between their limits.
   test.write("study.toml", study_text("seeds = [3, 4]"));

@@ -93,10 +93,11 @@ async function checkBars(page, name) {
       const near = (a, b) => Math.abs(a - b) <= 1e-6 * Math.abs(b);
       const there = values.map((_, i) => i).filter((i) => values[i] !== null);
       const same = heads.filter((head) => there.length && there.every((i) => near(values[i] / column(head)[i], values[there[0]] / column(head)[there[0]])));
-      check(same.length === 1, `${name}: the curve ${trace} of ${id} has the values of ${same.length ? same : "no column"}`);
-      if (same.length !== 1) continue;
-      const means = column(same[0]), factor = values[there[0]] / means[there[0]];
-      const other = (word) => heads.find((head) => head.includes(`_${word}`) && head.replace(`_${word}`, "") === same[0]);
+      check(same.length > 0, `${name}: the curve ${trace} of ${id} has the values of no column`);
+      if (!same.length) continue;
+      // Of columns with the same values, the last is that of the points.
+      const means = column(same.at(-1)), factor = values[there[0]] / means[there[0]];
+      const other = (word) => heads.find((head) => head.includes(`_${word}`) && head.replace(`_${word}`, "") === same.at(-1));
       const [low, high, error] = ["low", "high", "error"].map((word) => (other(word) ? column(other(word)) : []));
       const bars = there.flatMap((i) => [[above[i], error[i] ?? high[i] - means[i]], [below[i], error[i] ?? means[i] - low[i]]]
         .map(([bar, width]) => [bar / values[i], width / means[i]])).filter(([drawn]) => drawn > 0);
@@ -150,8 +151,8 @@ function parsed(text) {
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
 }
 
-const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "spot-areas", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
-  "damping-curve", "damping-deviation", "damping-models", "convergence"];
+const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "gap-load", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "spot-areas", "area-load", "stiffness-load",
+  "damping-curve", "damping-ratio", "convergence"];
 
 // Only what is in sight is drawn at first; paper gets all of it.
 check(statSync(join(folder, "full.html")).size < 3e6, `full.html: has ${statSync(join(folder, "full.html")).size} bytes`);
@@ -212,27 +213,22 @@ await slider.focus();
 const before = await touching();
 await full.keyboard.press("End");
 await full.waitForFunction((least) => document.getElementById("contact-map-plot").data[0].z.flat().filter((v) => v !== null).length > least, before);
-// The damping figure can show another model and another quantity.
-await full.selectOption("#damping-model", "gw_moments");
-await full.selectOption("#damping-measure", "work_per_cycle");
-check((await full.evaluate(() => document.getElementById("damping-curve-plot").layout.yaxis.title.text)).includes("work per cycle"), "full.html: the damping figure does not change to work per cycle");
-await full.selectOption("#damping-model", "bem");
 // Hovering shows values with units.
-const hovered = full.locator("#force-gap .hoverlayer .hovertext");
+const hovered = full.locator("#damping-curve .hoverlayer .hovertext");
 for (let attempt = 0; attempt < 20 && (await hovered.count()) === 0; ++attempt) {
   const point = await full.evaluate(() => {
-    const plot = document.getElementById("force-gap-plot");
+    const plot = document.getElementById("damping-curve-plot");
     plot.scrollIntoView({block: "center", behavior: "instant"});
-    const trace = plot.data.findIndex((t) => t.text && t.yaxis !== "y2"), box = plot.getBoundingClientRect(), {xaxis, yaxis} = plot._fullLayout;
+    const trace = plot.data.findIndex((t) => t.text), box = plot.getBoundingClientRect(), {xaxis, yaxis} = plot._fullLayout;
     return [box.x + xaxis._offset + xaxis.c2p(plot.data[trace].x[5]), box.y + yaxis._offset + yaxis.d2p(plot.data[trace].y[5])];
   });
   await full.mouse.move(point[0] - 15, point[1] - 5);
   await full.mouse.move(...point, {steps: 5});
   await full.waitForTimeout(200 + 100 * attempt);
 }
-check((await hovered.count()) > 0, "full.html: hovering over a point of the force curve shows nothing");
-const hover = (await hovered.count()) ? await full.locator("#force-gap .hoverlayer").textContent() : "";
-check(/F = [\d.]+\s[µmn]?N/.test(hover) && /ū = [\d.]+\s[nµ]m/.test(hover), `full.html: hovering says ${hover}`);
+check((await hovered.count()) > 0, "full.html: hovering over a point of the damping curve shows nothing");
+const hover = (await hovered.count()) ? await full.locator("#damping-curve .hoverlayer").textContent() : "";
+check(/force F [\d.]+\s[µmn]?N/.test(hover) && /: [\d.]+\s[mµk]?N s\/m/.test(hover) && /cycle W [\d.]+\s[a-z]J/.test(hover), `full.html: hovering says ${hover}`);
 // The CSV file of every figure is a table of numbers.
 for (const [i, id] of everyFigure.entries()) {
   // Chromium allows a page ten downloads in ten seconds: only the first five are real, for the others the test intercepts the text.
@@ -252,10 +248,10 @@ for (const [i, id] of everyFigure.entries()) {
   check(rows.slice(1).every((row) => row.every((cell) => cell === "" || Number.isFinite(Number(cell)))), `full.html: the CSV of ${id} has cells that are no numbers`);
 }
 // The deviation of Eq. (16) is the ratio of two columns of the figure above it.
-const columns = await full.evaluate(() => ["damping-curve", "damping-deviation"].map((id) => { document.querySelector(`#${id} .csv`).click(); return window.caught[1]; }));
+const columns = await full.evaluate(() => ["damping-curve", "damping-ratio"].map((id) => { document.querySelector(`#${id} .csv`).click(); return window.caught[1]; }));
 const [[curveHeads, ...curve], [offHeads, ...off]] = columns.map(parsed);
-const columnOf = (heads, rows, head) => rows.map((row) => Number(row[heads.indexOf(head)]));
-const [byLaw, computed, told] = [columnOf(curveHeads, curve, "law_damping_constant_Ns_per_m"), columnOf(curveHeads, curve, "curve_damping_constant_Ns_per_m"), columnOf(offHeads, off, "ratio")];
+const columnOf = (heads, rows, head) => rows.map((row) => Number(row[heads.findIndex((one) => head.test(one))]));
+const [byLaw, computed, told] = [columnOf(curveHeads, curve, /closed_form_Ns_per_m$/), columnOf(curveHeads, curve, /^boundary_elements_damping_constant_Ns_per_m$/), columnOf(offHeads, off, /^Eq_16_fitted_l/)];
 check(told.length === 12 && told.every((v, i) => !(Math.abs(v - byLaw[i] / computed[i]) > 1e-6 * (1 + Math.abs(v)))), `full.html: is off by ${told}, by its columns ${byLaw.map((v, i) => v / computed[i])}`);
 // The SVG picture, different markers in the legend, and links from symbols to their meaning.
 await full.evaluate(() => { window.caught = null; });
@@ -270,10 +266,6 @@ check(symbols === 0 && (await full.locator("a.symbol").count()) > 10, `full.html
 for (const page of new Set(await full.locator("#symbols td code").allInnerTexts())) check(existsSync(join(dirname(process.argv[1]), "../..", page)), `full.html: ${page}, which defines a symbol, is not there`);
 check(/Run time of the command/.test(await full.locator("#settings").innerText()), "full.html: does not say how long its study took");
 check(/@article/.test(await full.locator("#symbols").textContent()), "full.html: has no citation");
-// The residuals within the window of the fit take enough of their panel to be readable.
-const used = await full.evaluate(() => { const {data, layout} = document.getElementById("force-gap-plot"); const trace = data.find((t) => t.yaxis === "y2"), [x0, x1] = [layout.shapes[0].x0, layout.shapes[0].x1].sort((a, b) => a - b);
-  const inside = trace.y.filter((y, i) => y !== null && trace.x[i] >= x0 && trace.x[i] <= x1); return {share: (Math.max(...inside) - Math.min(...inside)) / (layout.yaxis2.range[1] - layout.yaxis2.range[0]), panel: layout.yaxis2.domain[1]}; });
-check(used.share > 0.12 && used.panel >= 0.3, `full.html: residuals take ${used.share} of their panel, which is ${used.panel} of the figure`);
 // Without JavaScript, the page shows the numbers and the verdict.
 const bare = await (await browser.newContext({javaScriptEnabled: false})).newPage();
 await bare.goto(`file://${join(folder, "full.html")}`, {waitUntil: "load"});
@@ -314,10 +306,10 @@ await checkContrast(full, "full.html, dark");
 await picture(full, "full-794-dark.png");
 await full.pdf({path: join(folder, "full.pdf"), format: "A4"});
 check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next to nothing");
-// Seventeen figures and six tables take eight sheets, and thirteen if each figure has the whole width.
+// Fourteen figures and six tables take eight sheets, and more if each figure has the whole width.
 const sheets = linesOfSheets(join(folder, "full.pdf"));
 check(sheets.length > 4 && sheets.length <= 9, `full.html: prints on ${sheets.length} sheets`);
-for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.55, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
+for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.5, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
 // The program prints the same sheets, with every figure.
 execFileSync(program, ["report", join(folder, "full.h5"), "--pdf", join(folder, "printed.pdf"), "--quiet"], {stdio: ["ignore", "ignore", "pipe"]});
 const printed = linesOfSheets(join(folder, "printed.pdf"));
@@ -402,7 +394,7 @@ for (const [name, sets] of Object.entries(motions)) {
     }
   }
   if (name === "slow") {
-    await checkFigures(page, "slow.html", everyFigure.filter((id) => !["convergence"].includes(id)));
+    await checkFigures(page, "slow.html", [...everyFigure.filter((id) => id !== "convergence"), "stiffness-ratio"]);
     await picture(page, "slow-1280.png");
     // If the program gives no number, the page gives none and states the reason.
     for (const [change, reason] of [[{excursion: ""}, /depends on excursion/], [{excursion: 0.001, drag_velocity: 0.01}, /motion is not slow/], [{excursion: 2, normal_amplitude: 1e5}, /presses up to about .*, but the curve ends at .*; extend the curve/], [{normal_amplitude: -1}, /must be > 0/]]) {
@@ -432,7 +424,7 @@ check(judged.length > 5 && judged.every(({other}) => curveOf(other) === "broken"
 
 // Adhesive surfaces, and then another point of a parameter grid.
 const sticky = await open("sticky.html", {viewport: {width: 1280, height: 900}});
-await checkFigures(sticky, "sticky.html", ["force-gap", "adhesion-loop"]);
+await checkFigures(sticky, "sticky.html", ["gap-load", "area-load", "adhesion-loop"]);
 check((await sticky.textContent("#conclusion")).includes("a cycle loses"), "sticky.html: no adhesion work");
 check(await sticky.locator("#damping").count() === 0, "sticky.html: damping with adhesion");
 
@@ -440,7 +432,7 @@ const grid = await open("grid.html", {viewport: {width: 1280, height: 900}});
 await checkFigures(grid, "grid.html", ["overview", ...everyFigure]);
 await checkBars(grid, "grid.html");
 // The figure shows the loss of the motion as described, as the card on top does, and it is larger than without slip.
-const pictured = await grid.evaluate(() => { const {data: traces} = document.getElementById("damping-curve-plot"), of = (name) => traces.find((trace) => trace.name === name && trace.error_y)?.y ?? []; return [of("computed, with slip"), of("computed, without slip")]; });
+const pictured = await grid.evaluate(() => { const {data: traces} = document.getElementById("damping-curve-plot"); return [traces.find((trace) => trace.name.startsWith("with slip"))?.y ?? [], traces.findLast((trace) => trace.name === "boundary elements").y]; });
 check(pictured[0].some((value, i) => value && pictured[1][i]) && pictured[0].every((value, i) => !value || !pictured[1][i] || value > pictured[1][i]), `grid.html: draws with slip ${pictured[0]}, without ${pictured[1]}`);
 const first = await grid.evaluate(() => document.querySelectorAll("#conclusion .value + .detail")[2].textContent);
 await grid.selectOption("#point", "1");
@@ -452,7 +444,7 @@ await picture(grid, "grid-1280.png");
 try {
   statSync(join(folder, "hostile.html"));
   const hostile = await open("hostile.html", {viewport: {width: 1280, height: 900}});
-  await checkFigures(hostile, "hostile.html", ["force-gap", "area-load"]);
+  await checkFigures(hostile, "hostile.html", ["gap-load", "area-load"]);
   check((await hostile.title()).includes("<script>"), `hostile.html: its title is ${await hostile.title()}`);
   check((await hostile.locator(".absent").count()) >= 4, "hostile.html: does not say what it lacks");
   const made = (await hostile.locator("#settings").innerText()).replace(/\s+/g, " ");

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
@@ -53,16 +54,18 @@ void write_hostile(const std::filesystem::path& file) {
   curve.labels("model", {"bem", "<b onmouseover=\"document.title='taken'\">bold</b>"}, "model");
   curve.index("realisation", 1, "number of the surface");
   curve.coordinate("pressure", std::vector<double>{1e6, 1e7, 1e8}, "Pa", "nominal pressure");
-  const std::vector<double> gaps{3e-8, 2e-8, 1e-8, 3e-8, 2e-8, 1e-8};
-  for (const char* member : {"_mean", "_low", "_high"})
-    curve.dataset(std::string("ensemble_mean_gap") + member, gaps, {"model", "pressure"}, "m",
-                  "mean gap");
-  curve.dataset("ensemble_contact_area_fraction_mean",
-                std::vector<double>{1e-3, 1e-2, 1e-1, 1e-3, 1e-2, 1e-1}, {"model", "pressure"}, "1",
-                "contact area over nominal area");
+  for (const auto& [name, values] :
+       {std::pair("mean_gap", std::vector<double>{3e-8, 2e-8, 1e-8, 3e-8, 2e-8, 1e-8}),
+        {"contact_area_fraction", {1e-3, 1e-2, 1e-1, 1e-3, 1e-2, 1e-1}},
+        {"converged", {1, 1, 1, 1, 1, 1}}})
+    curve.dataset(name, values, {"model", "realisation", "pressure"}, "1", name);
   ResultGroup surface = output.group("surface");
   surface.attribute("size_x", 1e-5);
   surface.attribute("size_y", 1e-5);
+  surface.attribute("contact_modulus", 1e10);
+  surface.index("realisation", 1, "number of the surface");
+  for (const auto& [name, value] : {std::pair("rms_height", 1e-8), {"rms_slope", 0.1}})
+    surface.dataset(name, std::vector{value}, {"realisation"}, "1", name);
   surface.attribute("warnings", "mind </script><script>document.title='taken'</script>\n");
   output.commit();
 }
@@ -160,7 +163,40 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
   }
   CHECK(density == Approx(1).epsilon(0.05));
   CHECK(squares == Approx(drawn).epsilon(0.2));
-  CHECK(point["samples"].size() == 3);
+}
+
+TEST_CASE("A page draws the panels that the program draws of the same study, to the last digit",
+          "[report][figures]") {
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
+  const Scratch scratch;
+  StudyConfiguration study = small_study();
+  study.stick = true;
+  study.known.friction_coefficient = 0.3;
+  study.known.excursion = 2e-6;
+  const StudyResult result = run_study(study);
+  write_study(scratch / "study.h5", result);
+  write_report(scratch / "study.h5", scratch / "study.html");
+  Json drawn = Json::parse(figures::figure_json(figures::figure_of(result)))["panels"],
+       shown = payload(content(scratch / "study.html"))["points"][0];
+  std::size_t k = 0;
+  for (const char* kind : {"gap-load", "area-load", "stiffness-load", "damping-curve",
+                           "stiffness-ratio", "local-length", "damping-ratio"}) {
+    INFO(kind);
+    const auto figure = std::ranges::find_if(shown["figures"],
+                                             [&](const Json& one) { return one["kind"] == kind; });
+    REQUIRE(figure != shown["figures"].end());
+    REQUIRE(k < drawn.size());
+    Json &page = (*figure)["panels"][0], &own = drawn[k++];
+    // Only the first panel of the program names the models.
+    for (Json* panel : {&page, &own})
+      for (Json& curve : (*panel)["curves"]) curve.erase("name");
+    CHECK(page == own);
+  }
+  CHECK(k == drawn.size());
+  CHECK_THAT(shown["motion"].get<std::string>(), Contains("Motion: slow shear over 2 µm at ") &&
+                                                     Contains("mean indentation held") &&
+                                                     Contains("µ = 0.3"));
 }
 
 TEST_CASE("Direct results stand beside the damping of the same motion and of no other",
@@ -189,6 +225,15 @@ TEST_CASE("Direct results stand beside the damping of the same motion and of no 
   REQUIRE(direct.size() == 1);
   CHECK(direct[0]["force"].get<double>() == Approx(2e-6));
   CHECK(direct[0]["work_per_cycle"].get<double>() == Approx(4e-21));
+  // The picture of damping has it as a point at the same force and loss.
+  for (const Json& figure : payload(content(scratch / "study.html"))["points"][0]["figures"]) {
+    if (figure["kind"] != "damping-curve") continue;
+    const Json& panel = figure["panels"][0];
+    const Json& point = panel["curves"].back();
+    CHECK(point["name"] == "direct simulation");
+    CHECK(point["x"][0].get<double>() * panel["second_x"]["factor"].get<double>() == Approx(2e-6));
+    CHECK(point["y"][0].get<double>() * panel["second_y"]["factor"].get<double>() == Approx(4e-21));
+  }
 
   options.direct = {cycle("other.h5", 3e-10)};
   CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
@@ -210,7 +255,12 @@ TEST_CASE("The points of a parameter grid share the room for maps", "[report]") 
   CHECK(data["names"] == Json({"H = 0.5", "H = 0.8"}));
   REQUIRE(data["points"].size() == 2);
   CHECK(data["points"][1]["picture"]["nx"] == 64);
-  CHECK(data["overview"]["decay_length_over_rms_height"]["mean"].size() == 2);
+  const Json& overview = data["figures"][0];
+  CHECK(overview["kind"] == "overview");
+  CHECK_THAT(overview["caption"].get<std::string>(), Contains("point 1: H = 0.5, 2: H = 0.8"));
+  CHECK(overview["panels"][0]["curves"][0]["y"].get<std::vector<double>>() ==
+        ResultReader(scratch / "grid.h5")
+            .numbers("ensemble/ensemble_decay_length_over_rms_height_mean"));
 }
 
 TEST_CASE("Names in a results file stay text, and what an old one lacks is left out", "[report]") {
