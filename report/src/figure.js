@@ -41,7 +41,7 @@ const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, siz
 function addFigure(parent, spec) {
   const state = {hidden: new Set()};
   for (const [name, axis] of Object.entries(spec.axes)) state[name] = axis.log ? "log" : "linear";
-  const plot = h("div", {class: spec.height > 500 ? "plot tall" : "plot", id: `${spec.id}-plot`, role: "img", "aria-label": plainText(spec.alt()), style: `height:${spec.height ?? 380}px`});
+  const plot = h("div", {class: "plot", id: `${spec.id}-plot`, role: "img", "aria-label": plainText(spec.alt()), style: `height:${spec.height ?? 380}px`});
   const legend = h("div", {class: "legend", role: "group", "aria-label": `Curves of ${plainText(spec.title)}: show or hide`});
   const details = h("details", {}, h("summary", {}, "Numbers as a table"));
   const switches = Object.entries(spec.axes).filter(([, axis]) => !axis.fixed).map(([name, axis]) =>
@@ -212,11 +212,11 @@ function band(label, x, estimate, style, more = {}) {
     const there = inside, back = [...inside].reverse();
     series.push({label, group: label, quiet: true, x: [...there, ...back].map((i) => x[i]),
       y: [...there.map((i) => estimate.high[i]), ...back.map((i) => estimate.low[i])],
-      fill: "toself", mode: "none", type: "scatter", fillcolor: faint(style.color, 0.18), hoverinfo: "skip", ...more.both});
+      fill: "toself", mode: "none", type: "scatter", fillcolor: faint(style.color, 0.18), hoverinfo: "skip"});
   }
   series.push({label, group: label, x, y: estimate.mean, type: "scatter", mode: more.markers === false ? "lines" : "lines+markers",
     line: {color: color(style.color), width: 2, dash: style.dash}, marker: {symbol: style.symbol, size: 6, color: color(style.color)},
-    text: more.text, ...more.both});
+    text: more.text});
   return series;
 }
 

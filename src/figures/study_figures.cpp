@@ -58,34 +58,48 @@ Means at_pressures(const StudyNumbers& numbers,
   return means;
 }
 
-/// Adds γ of the motion as the user described it, with the same numbers as the table of the study:
-/// with the 95 % interval over the surfaces or, for one surface, the numerical error.
-void add_answer(const StudyNumbers& numbers, Panel& damping) {
-  const bool sample = numbers.rms_height.size() > 1;
-  bool any_bar = false;
-  Curve points{
-      .quantity = "damping_constant", .x = numbers.pressures, .style = Style::points, .color = 0};
-  const auto low = [&](const StatedMean& one) { return sample ? one.low : one.mean - one.error; };
-  const auto high = [&](const StatedMean& one) { return sample ? one.high : one.mean + one.error; };
-  for (const StatedMean& one : numbers.damping_constant) {
-    const bool bar = !std::isnan(low(one));
-    any_bar |= bar;
+bool have_limits(const std::vector<StatedMean>& means) {
+  return std::ranges::any_of(means, [](const StatedMean& one) { return std::isfinite(one.low); });
+}
+
+/// Points with the 95 % interval over the surfaces or, for one surface, the numerical error.
+Curve points_of(const std::string& name, const std::vector<double>& x,
+                const std::vector<StatedMean>& means, const char* quantity = "damping_constant") {
+  Curve points{.name = name, .quantity = quantity, .x = x, .style = Style::points, .color = 0};
+  const bool limits = have_limits(means);
+  for (const StatedMean& one : means) {
+    const double low = limits ? one.low : one.mean - one.error;
     points.y.push_back(one.mean);
-    points.low.push_back(bar ? low(one) : one.mean);
-    points.high.push_back(bar ? high(one) : one.mean);
-    if (!std::isfinite(one.mean)) continue;
-    // The headline of the table: γ at the highest pressure at which it is known.
-    damping.title = "γ = " +
-                    (sample ? interval_text(one.mean, one.low, one.high, Dimension::damping)
-                            : error_text(one.mean, one.error, Dimension::damping)) +
-                    " at " +
-                    format_quantity(numbers.pressures[points.y.size() - 1], Dimension::pressure, 3);
+    // A point without a bar is drawn too.
+    points.low.push_back(std::isnan(low) ? one.mean : low);
+    points.high.push_back(std::isnan(low) ? one.mean : limits ? one.high : one.mean + one.error);
   }
-  if (damping.title.empty()) return;
-  points.name = numbers.slips ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
-                              : "without slip";
-  if (any_bar) points.name += sample ? ", 95 %" : ", ± error";
-  damping.curves.push_back(std::move(points));
+  return points;
+}
+
+/// Adds γ of the motion as the user described it, with the same numbers as the table of the study.
+void add_answer(const StudyNumbers& numbers, Panel& damping) {
+  const std::vector<StatedMean>& means = numbers.damping_constant;
+  const auto last = std::ranges::find_if(
+      means.rbegin(), means.rend(), [](const StatedMean& one) { return std::isfinite(one.mean); });
+  if (last == means.rend()) return;
+  const bool limits = have_limits(means);
+  // The headline of the table: γ at the highest pressure at which it is known.
+  damping.title = "γ = " +
+                  (limits ? interval_text(last->mean, last->low, last->high, Dimension::damping)
+                          : error_text(last->mean, last->error, Dimension::damping)) +
+                  " at " +
+                  format_quantity(numbers.pressures[std::size_t(means.rend() - last) - 1],
+                                  Dimension::pressure, 3);
+  const std::string name = numbers.slips
+                               ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
+                               : "without slip";
+  const bool errors = std::ranges::any_of(
+      means, [](const StatedMean& one) { return !std::isnan(one.mean - one.error); });
+  damping.curves.push_back(points_of(name + (limits   ? ", 95 %"
+                                             : errors ? ", ± error"
+                                                      : ""),
+                                     numbers.pressures, means));
 }
 
 /// Leaves out values that are far from all others: those of the curvature of a curve may be.
@@ -497,27 +511,17 @@ Figure figure_of(const StudyResult& result) {
 }
 
 Figure figure_of(const StudySolution& solution) {
-  const auto curve = [&](const char* name, const char* quantity,
-                         const std::vector<StatedMean>& means) {
-    Curve out{.name = name, .quantity = quantity, .x = solution.pressures};
-    const bool sample =
-        std::ranges::any_of(means, [](const StatedMean& one) { return std::isfinite(one.low); });
-    for (const StatedMean& one : means) {
-      out.y.push_back(one.mean);
-      out.low.push_back(sample ? one.low : one.mean - one.error);
-      out.high.push_back(sample ? one.high : one.mean + one.error);
-    }
-    out.style = Style::points;
-    return out;
-  };
   Panel panel{.x = axis_of("pressure", true, "nominal pressure p"),
               .y = axis_of("damping_constant", true, "damping constant γ"),
+              .curves = {points_of(solution.slips() ? "with slip" : "without slip",
+                                   solution.pressures, solution.damping_constant)},
               .legend = Legend::top_left};
-  panel.curves.push_back(curve(solution.slips() ? "with slip" : "without slip", "damping_constant",
-                               solution.damping_constant));
-  if (solution.slips())
-    panel.curves.push_back(curve("without slip", "damping_constant_without_slip",
-                                 solution.damping_constant_without_slip));
+  if (solution.slips()) {
+    panel.curves.push_back(points_of("without slip", solution.pressures,
+                                     solution.damping_constant_without_slip,
+                                     "damping_constant_without_slip"));
+    panel.curves.back().color = 1;
+  }
   return {.kind = "study_solution", .panels = {panel}};
 }
 

@@ -19,6 +19,7 @@
 #include "figures/figure_object.hpp"
 #include "figures/study_numbers.hpp"
 #include "map_bytes.hpp"
+#include "study_groups.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -30,11 +31,11 @@ using figures::Figure;
 using figures::Panel;
 using figures::Style;
 
-class PageFigures {
+class PageFigures : StudyGroups {
  public:
   PageFigures(const ResultReader& file, const std::string& where,
               const std::vector<double>& pressures)
-      : file_(file), where_(where), pressures_(pressures) {}
+      : StudyGroups(file, where), pressures_(pressures) {}
 
   Json all(Index map_side) {
     of_picture(map_side);
@@ -42,7 +43,7 @@ class PageFigures {
     for (const Figure& picture : figures::study_pictures(numbers))
       all_.push_back(figures::figure_object(picture));
     of_spots();
-    if (file_.has(where_ + "adhesion/mean_gap"))
+    if (has("adhesion/mean_gap"))
       add("adhesion-loop", "Pressure over mean gap in a cycle",
           "Adhesive surfaces approach and separate in steps of the gap. At negative pressures the "
           "contact pulls the surfaces together. The area between the two branches is the work lost "
@@ -52,7 +53,7 @@ class PageFigures {
            .curves = {
                estimate("approach", "adhesion/", "loading_pressure", "adhesion/mean_gap", 0),
                estimate("separation", "adhesion/", "unloading_pressure", "adhesion/mean_gap", 1)}});
-    if (file_.has(where_ + "convergence/surfaces")) {
+    if (has("convergence/surfaces")) {
       Panel panel{.x = {.quantity = "surfaces", .label = "surfaces"},
                   .y = axis_of("decay_length_over_rms_height", false, "l/h_{rms}")};
       panel.curves = {estimate("mean of the first surfaces, 95 %", "convergence/",
@@ -88,19 +89,6 @@ class PageFigures {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& name, const std::string& what) const {
-    throw InvalidInput(file_.file().string(),
-                       fmt::format("{}{} {}; the file is damaged", where_, name, what));
-  }
-
-  std::vector<double> list(const std::string& name, std::size_t size) const {
-    if (!file_.has(where_ + name)) refuse(name, "is missing");
-    std::vector<double> values = file_.numbers(where_ + name);
-    if (values.size() == size) return values;
-    refuse(name, values.empty() ? "has no values"
-                                : fmt::format("has {} values, {} are needed", values.size(), size));
-  }
-
   /// The mean of a quantity with its limits, over a coordinate.
   Curve estimate(const char* name, const std::string& group, const std::string& quantity,
                  const std::string& coordinate, int color,
@@ -111,41 +99,25 @@ class PageFigures {
                 .style = Style::line_and_points,
                 .color = color};
     const std::string path = group + prefix + quantity;
-    curve.y = list(path + "_mean", curve.x.size());
-    if (file_.has(where_ + path + "_low") && file_.has(where_ + path + "_high")) {
-      curve.low = list(path + "_low", curve.x.size());
-      curve.high = list(path + "_high", curve.x.size());
+    curve.y = part(path + "_mean", 0, curve.x.size());
+    if (has(path + "_low") && has(path + "_high")) {
+      curve.low = part(path + "_low", 0, curve.x.size());
+      curve.high = part(path + "_high", 0, curve.x.size());
     }
     return curve;
   }
 
-  std::string text(const std::string& group, const char* name) const {
-    return file_.text_attribute(where_ + group, name).value_or("");
-  }
-  double attribute(const std::string& group, const char* name) const {
-    return file_.number_attribute(where_ + group, name).value_or(ForceSample::unknown);
-  }
-
-  /// A part of a dataset of equal parts, which has `size` values; empty if there is no dataset.
-  std::vector<double> part(const std::string& name, std::size_t number, std::size_t parts,
-                           std::size_t size) const {
-    if (!file_.has(where_ + name)) return {};
-    const std::vector<double> all = list(name, parts * size);
-    const auto begin = all.begin() + std::ptrdiff_t(number * size);
-    return {begin, begin + std::ptrdiff_t(size)};
-  }
-
   /// The means of a quantity at the pressures, of one of several models.
-  std::vector<StatedMean> means(const std::string& name, std::size_t model = 0,
-                                std::size_t models = 1) const {
+  std::vector<StatedMean> means(const std::string& name, std::size_t model = 0) const {
     std::vector<StatedMean> means;
     for (const auto& [end, member] :
          {std::pair<const char*, double StatedMean::*>("_mean", &StatedMean::mean),
           {"_low", &StatedMean::low},
           {"_high", &StatedMean::high},
           {"_error", &StatedMean::error}}) {
-      const std::vector<double> values = part(name + end, model, models, pressures_.size());
-      if (!values.empty()) means.resize(values.size());
+      if (!has(name + end)) continue;
+      const std::vector<double> values = part(name + end, model, pressures_.size());
+      means.resize(values.size());
       for (std::size_t k = 0; k < values.size(); ++k) means[k].*member = values[k];
     }
     return means;
@@ -155,10 +127,10 @@ class PageFigures {
   std::vector<std::vector<double>> rows(const std::string& name, std::size_t surfaces,
                                         std::size_t number = 0, std::size_t parts = 1) const {
     std::vector<std::vector<double>> rows;
-    if (!file_.has(where_ + name)) return rows;
+    if (!has(name)) return rows;
     const std::size_t values = file_.numbers(where_ + name).size(),
                       size = values / parts / surfaces;
-    const std::vector<double> all = part(name, number, parts, size * surfaces);
+    const std::vector<double> all = part(name, number, size * surfaces);
     for (auto row = all.begin(); rows.size() < surfaces; row += std::ptrdiff_t(size))
       rows.emplace_back(row, row + std::ptrdiff_t(size));
     return rows;
@@ -167,11 +139,11 @@ class PageFigures {
   /// The numbers of the pictures that the program draws of a study in memory.
   figures::StudyNumbers study_numbers() const {
     figures::StudyNumbers numbers{.pressures = pressures_};
-    if (!file_.has(where_ + "surface/rms_height")) return numbers;
+    if (!has("surface/rms_height")) return numbers;
     numbers.rms_height = file_.numbers(where_ + "surface/rms_height");
     const std::size_t surfaces = numbers.rms_height.size();
-    if (surfaces == 0) refuse("surface/rms_height", "has no values");
-    numbers.rms_slope = list("surface/rms_slope", surfaces);
+    if (surfaces == 0) refuse_damaged("surface/rms_height", "has no values");
+    numbers.rms_slope = part("surface/rms_slope", 0, surfaces);
     numbers.nominal_area = attribute("surface", "size_x") * attribute("surface", "size_y");
     numbers.contact_scale = attribute("surface", "contact_scale");
     // Files of earlier versions have the moduli only with damping.
@@ -182,15 +154,15 @@ class PageFigures {
     numbers.twin = text("fit", "interval_method").find("prediction") != std::string::npos;
     const std::vector<std::string> models = file_.labels(where_ + "curve/model");
     for (std::size_t m = 0; m < models.size(); ++m) {
-      numbers.models.push_back(model(models[m], m, models.size(), surfaces));
+      numbers.models.push_back(model(models[m], m, surfaces));
       if (models[m] == "bem") add_boundary_elements(numbers, m, models.size());
     }
     numbers.corrected_area_fraction = rows("spots/corrected_area_fraction", surfaces);
-    if (file_.has(where_ + "damping/force")) add_motion(numbers);
+    if (has("damping/force")) add_motion(numbers);
     return numbers;
   }
 
-  figures::StudyNumbers::Model model(const std::string& name, std::size_t m, std::size_t models,
+  figures::StudyNumbers::Model model(const std::string& name, std::size_t m,
                                      std::size_t surfaces) const {
     const auto known = std::ranges::find(contact_models(), name, &StudyModel::name);
     figures::StudyNumbers::Model model;
@@ -200,12 +172,10 @@ class PageFigures {
     const std::size_t loads = pressures_.size();
     model.curves.assign(surfaces, std::vector<ForceSample>(loads));
     const auto fill = [&](const char* column, const auto& set) {
-      const std::vector<double> values =
-          part(std::string("curve/") + column, m, models, surfaces * loads);
+      const std::vector<double> values = part(std::string("curve/") + column, m, surfaces * loads);
       for (std::size_t i = 0; i < values.size(); ++i)
         set(model.curves[i / loads][i % loads], values[i]);
     };
-    if (!file_.has(where_ + "curve/converged")) refuse("curve/converged", "is missing");
     fill("converged", [](ForceSample& one, double value) { one.converged = value != 0; });
     for (const auto& [column, member] :
          {std::pair("mean_gap", &ForceSample::mean_gap),
@@ -213,35 +183,31 @@ class PageFigures {
           {"contact_area_fraction", &ForceSample::contact_area_fraction},
           {"normal_stiffness", &ForceSample::normal_stiffness},
           {"tangential_stiffness", &ForceSample::tangential_stiffness}})
-      fill(column, [member](ForceSample& one, double value) { one.*member = value; });
+      if (has(std::string("curve/") + column))
+        fill(column, [member](ForceSample& one, double value) { one.*member = value; });
     // Files of version 1.0 store a loss without slip without the ending "_without_slip".
     const auto without_slip = [&](const std::string& loss) {
-      return of_model(
-          loss + (file_.has(where_ + loss + "_without_slip_mean") ? "_without_slip" : ""), m,
-          models);
+      return of_model(loss + (has(loss + "_without_slip_mean") ? "_without_slip" : ""), m);
     };
     model.damping_constant = without_slip("damping/ensemble_damping_constant");
     model.over_bem = without_slip("comparison/work_per_cycle");
     return model;
   }
 
-  std::vector<EnsembleMean> of_model(const std::string& name, std::size_t m,
-                                     std::size_t models) const {
-    const std::vector<StatedMean> all = means(name, m, models);
+  std::vector<EnsembleMean> of_model(const std::string& name, std::size_t m) const {
+    const std::vector<StatedMean> all = means(name, m);
     return {all.begin(), all.end()};
   }
 
   void add_boundary_elements(figures::StudyNumbers& numbers, std::size_t m,
                              std::size_t models) const {
     const std::size_t surfaces = numbers.rms_height.size();
-    numbers.closed_form = of_model("damping/ensemble_damping_constant_closed_form", m, models);
-    numbers.small_amplitude =
-        of_model("damping/ensemble_small_amplitude_damping_constant", m, models);
-    numbers.deviation = of_model("damping/ensemble_deviation", m, models);
+    numbers.closed_form = of_model("damping/ensemble_damping_constant_closed_form", m);
+    numbers.small_amplitude = of_model("damping/ensemble_small_amplitude_damping_constant", m);
+    numbers.deviation = of_model("damping/ensemble_deviation", m);
     const auto fit = [&](const char* name) {
-      std::vector<double> values = part(std::string("fit/") + name, m, models, surfaces);
-      values.resize(surfaces, ForceSample::unknown);
-      return values;
+      return has(std::string("fit/") + name) ? part(std::string("fit/") + name, m, surfaces)
+                                             : std::vector(surfaces, ForceSample::unknown);
     };
     const auto length = fit("decay_length"), reference = fit("reference_pressure"),
                least = fit("pressure_min"), most = fit("pressure_max");
@@ -310,9 +276,9 @@ class PageFigures {
                                     {"contact_pressure", &picture.contact_pressure},
                                     {"gap", &picture.gap}})
       if (file_.has(group + "/" + name))
-        *map =
-            every(stride, rows, columns, list(std::string("picture/") + name, x.size() * y.size()),
-                  [](double value) { return float(value); });
+        *map = every(stride, rows, columns,
+                     part(std::string("picture/") + name, 0, x.size() * y.size()),
+                     [](double value) { return float(value); });
     picture.mapped_load = Index(file_.number_attribute(group, "mapped_load").value_or(-1));
     picture.hurst = attribute("picture", "hurst");
     picture.hurst_low = attribute("picture", "hurst_low");
@@ -339,7 +305,7 @@ class PageFigures {
   }
 
   void of_picture(Index map_side) {
-    if (!file_.has(where_ + "picture/heights")) return;
+    if (!has("picture/heights")) return;
     struct Place {
       std::string_view quantity;
       const char *name, *title, *caption;
@@ -378,17 +344,13 @@ class PageFigures {
                            std::initializer_list<std::pair<const char*, const char*>> curves) {
       Panel one{.x = axis_of("pressure", true, "nominal pressure p"), .y = y};
       for (const auto& [name, quantity] : curves)
-        if (file_.has(where_ + "spots/ensemble_" + quantity + "_mean"))
+        if (has(std::string("spots/ensemble_") + quantity + "_mean"))
           one.curves.push_back(
               estimate(name, "spots/", quantity, "curve/pressure", int(one.curves.size())));
       return one;
     };
-    Panel count = panel({.quantity = "spot_count", .label = "number of spots", .logarithmic = true},
-                        {{"spots", "spot_count"}}),
-          area = panel({.quantity = "mean_spot_area",
-                        .label = "area of a spot",
-                        .unit = "m^2",
-                        .logarithmic = true},
+    Panel count = panel(axis_of("spot_count", true), {{"spots", "spot_count"}}),
+          area = panel(axis_of("mean_spot_area", true, "area of a spot"),
                        {{"mean", "mean_spot_area"}, {"largest", "max_spot_area"}});
     if (!count.curves.empty())
       add("spots", "Contact spots",
@@ -401,8 +363,6 @@ class PageFigures {
           std::move(area));
   }
 
-  const ResultReader& file_;
-  const std::string where_;
   const std::vector<double> pressures_;
   Json all_ = Json::array();
 };

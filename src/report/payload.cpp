@@ -19,6 +19,7 @@
 #include "map_bytes.hpp"
 #include "page_figures.hpp"
 #include "study/estimate.hpp"
+#include "study_groups.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -46,11 +47,10 @@ constexpr double map_budget = 256. * 256.;
 
 /// Reads the groups of one study, or of one point of its parameter grid, and makes their part of
 /// the payload.
-class Point {
+class Point : StudyGroups {
  public:
-  Point(const ResultReader& file, std::string where)
-      : file_(file),
-        where_(std::move(where)),
+  Point(const ResultReader& file, const std::string& where)
+      : StudyGroups(file, where),
         models_(file_.labels(where_ + "curve/model")),
         pressures_(file_.numbers(where_ + "curve/pressure")) {}
 
@@ -112,38 +112,6 @@ class Point {
   static std::string title(const std::string& model) {
     const auto known = std::ranges::find(contact_models(), model, &StudyModel::name);
     return known == contact_models().end() ? model : known->title;
-  }
-
-  bool has(const std::string& name) const { return file_.has(where_ + name); }
-
-  std::optional<std::vector<double>> column(const std::string& name) const {
-    if (!has(name)) return {};
-    return file_.numbers(where_ + name);
-  }
-
-  [[noreturn]] void refuse_damaged(const std::string& name, const std::string& what) const {
-    throw InvalidInput(file_.file().string(),
-                       fmt::format("{} {}; the file is damaged", where_ + name, what));
-  }
-
-  /// The values of a dataset that must exist, because related datasets do. Refuses the file as
-  /// damaged if the dataset is missing or empty.
-  std::vector<double> required(const std::string& name) const {
-    std::optional<std::vector<double>> values = column(name);
-    if (!values || values->empty()) refuse_damaged(name, values ? "has no values" : "is missing");
-    return std::move(*values);
-  }
-
-  /// A dataset consists of equal blocks of `size` values, such as one for each model. Returns one
-  /// block; refuses the file as damaged if the dataset is too short.
-  std::vector<double> part(const std::string& name, std::size_t block, std::size_t size) const {
-    const std::vector<double> values = required(name);
-    // Divides, because the product block · size of two numbers from the file may overflow.
-    if (size > 0 && block >= values.size() / size)
-      refuse_damaged(name, fmt::format("has {} values, {}{} are needed", values.size(),
-                                       block > 0 ? fmt::format("{} times ", block + 1) : "", size));
-    const auto begin = values.begin() + std::ptrdiff_t(block * size);
-    return {begin, begin + std::ptrdiff_t(size)};
   }
 
   /// {mean, low, high} from the datasets NAME_mean, NAME_low and NAME_high; null if the file has
@@ -315,8 +283,6 @@ class Point {
     return json;
   }
 
-  const ResultReader& file_;
-  const std::string where_;
   const Names models_;
   const std::vector<double> pressures_;
   const Bootstrap bootstrap_;

@@ -199,11 +199,12 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses);
 
-/// Gap, area, stiffness, damping and stiffness ratio of all models over the pressure, with 95 %
-/// bands, the damping constants of the study's table with their errors, and local decay lengths. A quantity that no model computes has
+/// Gap with the fitted law, area, stiffness, damping and stiffness ratio of all models over the
+/// pressure, with 95 % bands and the damping constants of the study's table with their errors; local
+/// decay lengths; damping over that of the boundary elements. A quantity that no model computes has
 /// no panel. One point of the parameter grid gives two panels in a row. Several points give a
 /// column each, and the panels of a row share their axes. varied: the parameters whose values are
-/// the titles of the columns.
+/// the titles of the columns. A report has the same panels.
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied);
 Figure figure_of(const StudyResult& result);
 /// The damping constants over the pressure with their 95 % limits, or with their numerical errors for
