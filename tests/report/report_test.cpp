@@ -194,6 +194,12 @@ TEST_CASE("A page draws the panels that the program draws of the same study, to 
     CHECK(page == own);
   }
   CHECK(k == drawn.size());
+  // The axis of K_t/K, which is near G*/E* = 0.82, has no empty room down to zero.
+  CHECK(drawn[4]["y"]["low"].get<double>() > 0.6);
+  // Without stick solves all ratios are G*/E*, and no panel shows that.
+  study.stick = false;
+  CHECK(figures::figure_of(run_study(study)).panels.size() == drawn.size() - 1);
+  CHECK_THAT(figures::figure_of(result).caption, Contains(shown["motion"].get<std::string>()));
   CHECK_THAT(shown["motion"].get<std::string>(), Contains("Motion: slow shear over 2 µm at ") &&
                                                      Contains("mean indentation held") &&
                                                      Contains("µ = 0.3"));
