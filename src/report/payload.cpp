@@ -246,15 +246,9 @@ class Point : StudyGroups {
     return json;
   }
 
-  /// Adhesive contact: pressure over mean gap in loading and unloading, the pull-off pressure, and
-  /// the work lost in a loading cycle.
+  /// Adhesive contact: the pull-off pressure, and the work lost in a loading cycle.
   Json adhesion() const {
     Json json;
-    const auto gaps = column("adhesion/mean_gap");
-    if (!gaps) return json;
-    json["mean_gap"] = list(*gaps);
-    for (const char* name : {"loading_pressure", "unloading_pressure"})
-      json[name] = estimate(std::string("adhesion/ensemble_") + name, 0, gaps->size());
     for (const char* name :
          {"pull_off_pressure", "pull_off_error", "adhesion_work_per_cycle", "adhesion_work_error"})
       for (const char* member : {"mean", "low", "high"})
