@@ -126,10 +126,12 @@ bool shows_anything(const Panel& panel) {
   });
 }
 
-/// Gives panels the same limits, which contain all their curves, bands and reference lines.
+/// Gives panels the same scale and limits, which contain all their curves, bands and reference lines.
 void share_limits(const std::vector<Panel*>& panels) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  const bool logarithmic = panels.front()->y.logarithmic;
+  const bool logarithmic =
+      std::ranges::all_of(panels, [](const Panel* panel) { return panel->y.logarithmic; });
+  for (Panel* panel : panels) panel->y.logarithmic = logarithmic;
   const auto hold = [&](double value) {
     if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
     low = std::min(low, value);
