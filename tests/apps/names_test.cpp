@@ -91,10 +91,10 @@ void check_group(const ResultReader& reader, const std::string& path, const std:
 }
 
 /// What counts or names, and so has no unit: axes of files, and what an answer has beside its
-/// quantities.
+/// quantities; and contact_scale, the unit of relative pressures, which StudyResult describes.
 const std::set<std::string> indices{"sample",    "component",   "realisation", "midpoint",
                                     "min_cells", "surfaces",    "point",       "nx",
-                                    "ny",        "mapped_load", "step"};
+                                    "ny",        "mapped_load", "step",        "contact_scale"};
 const std::set<std::string> counts{"realisations", "seed"};
 
 /// Columns of problems and of the program, which the library's glossary does not have.
