@@ -14,6 +14,7 @@
 
 #include "assumption_options.hpp"
 #include "damping_maps.hpp"
+#include "figures/axes.hpp"
 #include "io/number_table.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
@@ -169,6 +170,17 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
   session.answer(object);
 }
 
+/// The motion of a figure in words, for its caption, without the quantity that varies.
+std::string setting_of(const DampingSolution& answer, std::string_view varied,
+                       std::optional<double> friction) {
+  const DampingResult& first = answer.results.front();
+  std::string text = " " + figures::motion_text(answer.motions.front(), varied);
+  text += friction ? fmt::format(", µ = {:.3g}", *friction) : ", no slip";
+  if (varied != "force" && varied != "pressure" && varied != "mean_gap" && varied != "indentation")
+    text += ", F = " + format_quantity(first.force, Dimension::force, 4);
+  return text + fmt::format("; the mean {} is held.", name_of(first.hold));
+}
+
 // Draws one period of the motion if there is a single case; draws nothing for a motion without a
 // period.
 void plot_case(const DampingArguments& arguments, const DampingSolution& answer, Session& session) {
@@ -187,7 +199,9 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
     loss.work_per_cycle = answer.results.front().work_per_cycle;
     loss.error = answer.results.front().error;
   }
-  session.plot(figures::figure_of(cycle.path, loss));
+  figures::Figure figure = figures::figure_of(cycle.path, loss);
+  figure.caption += setting_of(answer, "", arguments.assumptions.friction_coefficient);
+  session.plot(figure);
 }
 
 void lose(const DampingArguments& arguments, Session& session) {
@@ -245,9 +259,11 @@ void lose(const DampingArguments& arguments, Session& session) {
   const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
     write_tables(session, "damping", object, {});
-    if (!values.empty() && session.has_plot())
-      session.plot(figures::figure_of(quantity, values, answer.results));
-    else if (!arguments.maps.given())
+    if (!values.empty() && session.has_plot()) {
+      figures::Figure figure = figures::figure_of(quantity, values, answer.results);
+      figure.caption += setting_of(answer, quantity, arguments.assumptions.friction_coefficient);
+      session.plot(figure);
+    } else if (!arguments.maps.given())
       plot_case(arguments, answer, session);
     arguments.maps.write(answer, arguments.steps, session);
   }

@@ -7,6 +7,8 @@
 #include <salebra/base/units.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/results/force_curve_file.hpp>
+#include <tuple>
+#include <utility>
 
 #include "answers.hpp"
 #include "options.hpp"
@@ -46,7 +48,7 @@ std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts
 
 void run(const FitArguments& arguments, Session& session) {
   // The force over the gap is the same in all directions of the tangential motion.
-  const ForceCurve curve = by_direction(read_force_curve(arguments.curve)).front();
+  const ForceCurve all = read_force_curve(arguments.curve), curve = by_direction(all).front();
   std::optional<PressureWindow> window;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
@@ -88,7 +90,18 @@ void run(const FitArguments& arguments, Session& session) {
   // The local decay lengths only go into the file: they are too long for the text of the answer.
   Json complete = answer;
   complete["local"] = lists_of(local_decay_length(curve));
-  if (session.has_plot()) session.plot(figures::figure_of(curve, fit));
+  if (session.has_plot()) {
+    // Without noise the range of l is that of parts of the window, as in the answer.
+    ExponentialFit drawn = fit;
+    if (!noisy)
+      std::tie(drawn.decay_length_low, drawn.decay_length_high) =
+          std::pair(parts.decay_length_min, parts.decay_length_max);
+    figures::Figure figure = figures::figure_of(all, drawn);
+    figure.caption +=
+        noisy ? " The interval of the decay length has a confidence of 95 %."
+              : " The range of the decay length is that of fits to parts of the window.";
+    session.plot(figure);
+  }
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }
 

@@ -301,7 +301,10 @@ void run(const OscillateArguments& arguments, Session& session) {
     const std::vector<double> directions = directions_of_case(arguments, contact.body.surface);
     for (std::size_t k = 0; k < directions.size(); ++k) {
       if (!stops) stops.emplace(interrupted);
-      names.push_back(!shape.empty() ? shape : k == 0 ? "across" : "along");
+      names.push_back(!shape.empty()           ? shape
+                      : directions.size() == 1 ? "motion " + direction_in_words(directions[k])
+                      : k == 0                 ? "across"
+                                               : "along");
       const OscillationRoutes routes = routes_of(
           arguments, contact, shape, directions[k],
           part_of(session.progress(), outcomes.size(), shapes.size() * directions.size()));

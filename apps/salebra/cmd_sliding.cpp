@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <numbers>
 #include <salebra/analysis/sliding.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/figures/figures.hpp>
@@ -192,10 +193,22 @@ void slide(const SlidingArguments& arguments, Session& session) {
     for (const std::vector<Regime>& row : found.regimes->regime)
       for (const Regime regime : row) regimes.push_back(std::string(name_of(regime)));
   }
-  if (session.has_plot())
-    session.plot(maps      ? figures::figure_of(*found.regimes, problem.angular_frequency)
-                 : !single ? figures::figure_of(found.points, problem)
-                           : figures::figure_of(found.points, problem.friction_coefficient));
+  if (session.has_plot()) {
+    figures::Figure figure = maps ? figures::figure_of(*found.regimes, problem.angular_frequency)
+                             : !single
+                                 ? figures::figure_of(found.points, problem)
+                                 : figures::figure_of(found.points, problem.friction_coefficient);
+    figure.caption += fmt::format(" µ = {:.3g}", problem.friction_coefficient);
+    if (problem.normal_amplitude.size() == 1)
+      figure.caption +=
+          ", u_z = " + format_quantity(problem.normal_amplitude.front(), Dimension::length, 4);
+    figure.caption +=
+        fmt::format(", ω/2π = {}, F = {}.",
+                    format_quantity(problem.angular_frequency / (2 * std::numbers::pi),
+                                    Dimension::frequency, 4),
+                    format_quantity(found.points.front().state.mean_force, Dimension::force, 4));
+    session.plot(figure);
+  }
   assumptions.answer(session, answer, text);
 }
 
@@ -245,8 +258,15 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   write_tables(session, "slider", answer,
                {table_of("motion", lists_of(found.motion)),
                 table_of("averaged_motion", lists_of(found.averaged))});
-  if (session.has_plot())
-    session.plot(figures::figure_of(found.motion, found.averaged, problem.slider.spring_stiffness));
+  if (session.has_plot()) {
+    figures::Figure figure =
+        figures::figure_of(found.motion, found.averaged, problem.slider.spring_stiffness);
+    figure.caption +=
+        fmt::format(" µ = {:.3g}, V = {}, u_z = {}.", problem.friction_coefficient,
+                    format_quantity(problem.slider.velocity, Dimension::velocity, 4),
+                    format_quantity(problem.normal.normal_amplitude, Dimension::length, 4));
+    session.plot(figure);
+  }
   const ContactParameters known = arguments.assumptions.parameters(arguments.material);
   AssumptionReport{
       {contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}

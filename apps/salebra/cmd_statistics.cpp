@@ -216,7 +216,7 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   const bool all = arguments.all || session.has_output();
   const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
   std::vector<ResultTable> tables;
-  std::optional<PowerSpectrum> spectrum;
+  std::optional<PowerSpectrum> spectrum, other;
   double asymmetric = 0;
   FittedLaw fit;
   SurfaceLay lay;
@@ -229,7 +229,6 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
     const bool windowless =
         window == Window::none || (window == Window::automatic && complete.periodic);
     const Window of_law = lay.found() && complete.periodic && windowless ? Window::hann : window;
-    std::optional<PowerSpectrum> other;
     if (surfaces.measured || of_law != window)
       other = power_spectrum(!surfaces.measured ? complete
                              : undefined == 0   ? *surfaces.measured
@@ -275,7 +274,11 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
   }
   write_tables(session, "statistics", whole, tables);
   if (session.has_plot())
-    session.plot(figures::figure_of(surface, {std::move(spectrum), fit.mean.hurst}));
+    // The spectra across and along a lay are those with a window.
+    session.plot(figures::figure_of(
+        surface,
+        {fit.of_lay && other && !surfaces.measured ? std::move(other) : std::move(spectrum),
+         fit.mean, fit.of_lay, lay.angle}));
   if (!arguments.all) return session.answer(arguments.in_table ? whole : answer);
   std::string text = to_text(whole);
   for (const ResultTable& table : tables)

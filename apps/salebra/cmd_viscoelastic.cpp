@@ -12,6 +12,7 @@
 
 #include "assumption_options.hpp"
 #include "damping/phase_quadrature.hpp"
+#include "figures/axes.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -116,9 +117,21 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
     table.columns.insert(table.columns.begin(), {quantity, values});
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
-  if (session.has_plot())
-    session.plot(
-        figures::figure_of(table.columns.front().name, table.columns.front().values, losses));
+  if (session.has_plot()) {
+    figures::Figure figure =
+        figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
+    figure.caption +=
+        " " +
+        std::visit(
+            [&](const auto& motion) {
+              return figures::motion_text(motion, table.columns.front().name == "frequency"
+                                                      ? "angular_frequency"
+                                                      : quantity);
+            },
+            arguments.motion.motions().front()) +
+        ".";
+    session.plot(figure);
+  }
   assumptions.answer(session, answer);
 }
 

@@ -79,16 +79,28 @@ def _number(value: float, _: object = None) -> str:
     return ("" if digits == "1" else f"{digits}·") + rf"10$^{{\mathregular{{{power[0].strip('+')}{power[1:].lstrip('0')}}}}}$"
 
 
+def _prefixed(unit: str, value: float) -> tuple[str, float]:
+    """The unit with the prefix that suits a value, and the factor to it. The prefix of 1/m belongs to the metre."""
+    inverse = unit in ("1/m", "rad/m")
+    if not (inverse or unit in _PREFIXED) or not 0 < value < math.inf:
+        return unit, 1.0
+    thousands = math.floor(math.log10(value * (1 + 1e-9)) / 3)
+    power = min(max(-thousands if inverse else thousands, -5), 3)
+    prefix = ("f", "p", "n", "µ", "m", "", "k", "M", "G")[power + 5]
+    return (f"{unit[:-1]}{prefix}m", 10.0 ** (3 * power)) if inverse else (prefix + unit, 10.0 ** (-3 * power))
+
+
 def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
-    """Names an axis. Its numbers have prefix and unit, "2 µm": the data stay in SI units, so that results can share axes."""
-    from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+    """Names an axis with the prefix that suits it: the data stay in SI units, so that results can share axes."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     label = axis.label.get_fontsize() * 0.55
-    unit, many = described.unit, max(3, int(points / ((12 if axis.axis_name == "x" else 4) * label)))
-    prefixed = unit in _PREFIXED
-    axis.set_label_text(_wrapped(described.label + ("" if prefixed or not unit else f" ({unit})"), points, axis.label.get_fontsize()))
-    formatter: Any = EngFormatter(unit) if prefixed else FuncFormatter(_number)
-    formatter.unit = unit  # which results on the same axes have to share
+    many = max(3, int(points / ((9 if axis.axis_name == "x" else 4) * label)))
+    ends = [abs(end) for end in axis.get_view_interval()]
+    unit, factor = _prefixed(described.unit, math.sqrt(ends[0] * ends[1]) if (main or axis).get_scale() == "log" else max(ends))
+    axis.set_label_text(_wrapped(described.label + (f" ({unit})" if unit else ""), points, axis.label.get_fontsize()))
+    formatter: Any = FuncFormatter(lambda value, _: _number(value * factor))
+    formatter.unit = described.unit  # which results on the same axes have to share
     axis.set_major_formatter(formatter)
     if (main or axis).get_scale() == "log":
         low, high = sorted((main or axis).get_view_interval())
@@ -129,10 +141,12 @@ def _image(ax: Axes, image: Any, equal: bool, keywords: dict[str, Any]) -> None:
 
 
 def _curve(ax: Axes, curve: Any, number: int, keywords: dict[str, Any]) -> None:
+    from matplotlib import rcParams
+
     points = curve.style in ("points", "line_and_points")
     look = {
         "color": _color(number), "linestyle": _DASHES.get(curve.style, "-"), "marker": _MARKERS[number] if points else "none",
-        "label": _text(curve.name) or "_", "rasterized": len(curve.x) > 5000,
+        "label": _text(curve.name) or "_", "markersize": rcParams["lines.markersize"] * (0.5 if len(curve.x) > 25 else 0.8), "rasterized": len(curve.x) > 5000,
     } | keywords  # fmt: skip
     x, y, low, high = (np.asarray(values, dtype=float) for values in (curve.x, curve.y, curve.low, curve.high))
     if low.size and curve.style == "points":
@@ -219,6 +233,9 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
         for limits, limit, described in ((ax.get_xlim, ax.set_xlim, panel.x), (ax.get_ylim, ax.set_ylim, panel.y)):
             limit(described.low, described.high)
             low, high = limits()
+            size = max(abs(low), abs(high))
+            if not panel.image and not described.logarithmic and described.low is described.high is None and high - low < 0.011 * size:
+                limit(low - 0.02 * size, high + 0.02 * size)  # a value that is constant to within a percent is not magnified
             if described.low is not None and described.high is None and not described.logarithmic:
                 limit(low, high + 0.05 * (high - low))  # the margin of the data alone is too narrow
         # A bar that ends near zero would extend a logarithmic axis by decades.

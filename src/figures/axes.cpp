@@ -3,15 +3,19 @@
 #include "axes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
 
 #include "results/columns.hpp"
+#include "results/describe.hpp"
 
 namespace salebra::figures {
 
@@ -25,6 +29,25 @@ Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
        {std::pair("frequency", "frequency of the normal motion"),
         {"tangential_frequency", "frequency of the tangential motion"}})
     if (name == frequency) quantity = {frequency, Dimension::frequency, meaning};
+  // Terms and symbols of the glossary, the same in all figures.
+  constexpr auto terms = std::to_array<std::pair<std::string_view, std::string_view>>(
+      {{"damping_constant", "damping constant γ"},
+       {"drag_velocity", "velocity v of the slow shear"},
+       {"excursion", "excursion X"},
+       {"force", "normal force F"},
+       {"friction_coefficient", "coefficient of friction µ"},
+       {"indentation", "indentation δ"},
+       {"mean_gap", "mean gap ū"},
+       {"normal_amplitude", "normal amplitude u_z"},
+       {"phase", "phase φ_0"},
+       {"pressure", "nominal pressure p"},
+       {"tangential_amplitude", "tangential amplitude u_x"},
+       {"tangential_force", "tangential force F_x"},
+       {"velocity", "sliding velocity v"},
+       {"work_per_cycle", "loss W"}});
+  if (const auto term = std::ranges::find(terms, name, [](const auto& one) { return one.first; });
+      label.empty() && term != terms.end())
+    label = term->second;
   const std::string unit(si_unit(quantity.dimension));
   return {.quantity = std::string(name),
           .label = !label.empty()
@@ -32,6 +55,41 @@ Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
                        : plain_text(quantity.long_name.empty() ? name : quantity.long_name),
           .unit = unit == "1" ? "" : unit,
           .logarithmic = logarithmic};
+}
+
+std::string motion_text(const Motion& motion, std::string_view varied) {
+  constexpr auto symbols = std::to_array<std::pair<std::string_view, const char*>>(
+      {{"normal_amplitude", "u_z"},
+       {"tangential_amplitude", "u_x"},
+       {"phase", "φ_0"},
+       {"drag_velocity", "v"},
+       {"angular_frequency", "ω/2π"},
+       {"normal_angular_frequency", "ω_z/2π"},
+       {"tangential_angular_frequency", "ω_x/2π"}});
+  std::vector<std::string> parts;
+  std::visit(
+      [&]<class M>(const M& one) {
+        describe(
+            [&](auto member, const auto& line) {
+              if constexpr (std::is_same_v<std::remove_cvref_t<decltype(one.*member)>, double>) {
+                const auto symbol = std::ranges::find(
+                    symbols, line.name, [](const auto& known) { return known.first; });
+                if (symbol == symbols.end() || line.name == varied) return;
+                const double value = one.*member;
+                const bool frequency = line.name.ends_with("frequency");
+                if (frequency && !(value > 0)) return;
+                parts.push_back(fmt::format(
+                    "{} = {}", symbol->second,
+                    line.name == "phase"
+                        ? fmt::format("{:.4g}°", value * 180 / std::numbers::pi)
+                        : format_quantity(frequency ? value / (2 * std::numbers::pi) : value,
+                                          frequency ? Dimension::frequency : line.dimension, 4)));
+              }
+            },
+            std::type_identity<M>{});
+      },
+      motion);
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string interval_text(double value, double low, double high, Dimension dimension) {
@@ -59,6 +117,15 @@ std::string error_text(double value, double error, Dimension dimension) {
 bool spans_decades(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   return low > 0 && high > 30 * low;
+}
+
+bool grows_by_factors(const std::vector<double>& values) {
+  if (spans_decades(values)) return true;
+  if (values.size() < 4 || !(values[0] > 0) || !(values[1] > 1.2 * values[0])) return false;
+  const double factor = values[1] / values[0];
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!(std::abs(values[k] / values[k - 1] / factor - 1) < 1e-6)) return false;
+  return true;
 }
 
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/units.hpp>
+#include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
 #include <string>
 #include <string_view>
@@ -11,6 +12,8 @@ namespace salebra::figures {
 
 /// The axis of a quantity that has this name in JSON and files. label: instead of its meaning.
 Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_view label = {});
+/// "u_z = 10 nm, v = 1 mm/s, ω/2π = 20 kHz"; without the quantity of that name and unknown numbers.
+std::string motion_text(const Motion& motion, std::string_view varied = {});
 /// "25.3 nm (24.1 nm … 26.5 nm)"; without the limits where they are unknown.
 std::string interval_text(double value, double low, double high, Dimension dimension);
 /// "25.3 nm ± 2 %"; without the error where it is unknown, and without the value where it is no larger
@@ -18,6 +21,9 @@ std::string interval_text(double value, double low, double high, Dimension dimen
 std::string error_text(double value, double error, Dimension dimension);
 /// Whether positive values span more than 1.5 decades.
 bool spans_decades(const std::vector<double>& values);
+/// Whether the values of a list call for a logarithmic axis: they span decades, or each is the one
+/// before times the same factor.
+bool grows_by_factors(const std::vector<double>& values);
 /// A map of a field over the cells of a grid, in colours.
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                 const Axis& scale);

@@ -64,7 +64,6 @@ void add_fit(Panel& panel, const ExponentialFit& fit) {
 Panel local_panel(const LocalDecayLength& local, const std::optional<ExponentialFit>& fit) {
   Panel panel{.x = axis_of("mean_gap", false, "mean gap ū"),
               .y = axis_of("local_decay_length", false, "local decay length −dū/d ln p")};
-  panel.y.low = 0;
   panel.curves.push_back({.name = "between loads",
                           .x = local.mean_gap,
                           .y = local.decay_length,
@@ -108,7 +107,9 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
       .kind = "curve",
       .caption =
           "Nominal pressure, contact area and stiffness of a contact" +
-          std::string(fit ? ", with the exponential law fitted in the shaded window." : ".")};
+          std::string(fit ? ", with the exponential law fitted in the shaded window, the local "
+                            "decay length and the deviation of the pressure from the law."
+                          : ".")};
   const Axis pressure = axis_of("pressure", true, "nominal pressure p");
   Curve gaps = points_of(curve, curve.model.empty() ? "curve" : plain_text(curve.model),
                          &ForceSample::mean_gap, &ForceSample::pressure);
@@ -136,7 +137,7 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
   Panel stiffness{.x = axis_of("force", true, "normal force F"),
                   .y = {.label = "stiffness", .unit = "N/m", .logarithmic = true},
                   .legend = Legend::top_left};
-  Panel ratio{.x = pressure, .y = {.label = "stiffness ratio K_t/K", .low = 0}};
+  Panel ratio{.x = pressure, .y = {.label = "stiffness ratio K_t/K"}};
   const auto add = [&](const ForceCurve& one, const std::string& name, const char* quantity,
                        double ForceSample::*member) {
     Curve points = points_of(one, name, &ForceSample::force, member);

@@ -200,24 +200,25 @@ Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<DampingResult>& results) {
-  const Axis x = axis_of(quantity, spans_decades(values));
-  Figure figure{.kind = "damping",
-                .caption =
-                    "Energy lost in a cycle and damping constant, with their numerical errors, "
-                    "without slip and by the closed form for small amplitudes.",
-                .columns = 3};
+  const Axis x = axis_of(quantity, grows_by_factors(values));
+  Figure figure{
+      .kind = "damping",
+      .caption =
+          "Energy lost in a cycle and damping constant, with their numerical errors, and by the "
+          "closed form for small amplitudes, Eq. (12) or (15).",
+      .columns = 3};
   figure.panels = {{.title = "Energy dissipated in a cycle",
                     .x = x,
-                    .y = axis_of("work_per_cycle", false, "loss W"),
+                    .y = axis_of("work_per_cycle"),
                     .legend = Legend::top_left},
-                   {.title = "Small-amplitude form against W without slip",
+                   {.title = "Damping constant", .x = x, .y = axis_of("damping_constant")},
+                   {.title = "Error of the closed form",
                     .x = x,
-                    .y = {.label = "deviation (%)"}},
-                   {.title = "Damping constant",
-                    .x = x,
-                    .y = axis_of("damping_constant", false, "damping constant γ")}};
+                    .y = {.label = "closed form over loss without slip − 1 (%)"}}};
   const std::size_t directions = results.size() / values.size();
-  const std::string form = "small-amplitude form";
+  const std::string form = "closed form";
+  // Points show where the values are; a fine series is a line.
+  const Style style = values.size() > 30 ? Style::line : Style::line_and_points;
   for (std::size_t d = 0; d < directions; ++d) {
     const DampingResult& first = results[d * values.size()];
     const std::string way = directions > 1 ? ", " + direction_in_words(first.direction) : "";
@@ -228,7 +229,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     });
     const auto add = [&](Panel& panel, const std::string& name, const char* of, const auto& number,
                          const auto& error) {
-      Curve curve{.name = name, .quantity = of, .x = values};
+      Curve curve{.name = name, .quantity = of, .x = values, .style = style};
       for (std::size_t k = d * values.size(); k < (d + 1) * values.size(); ++k) {
         curve.y.push_back(number(results[k]));
         curve.low.push_back(curve.y.back() - error(results[k]));
@@ -241,26 +242,26 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     };
     const auto none = [](const DampingResult&) { return ContactParameters::unknown; };
     add(
-        figure.panels[0], (slips ? "W with slip" : "W") + way, "work_per_cycle",
+        figure.panels[0], (slips ? "with slip" : "without slip") + way, "work_per_cycle",
         [](const DampingResult& one) { return one.work_per_cycle; },
         [](const DampingResult& one) { return one.work_per_cycle_error(); });
     if (slips)
       add(
-          figure.panels[0], "W without slip" + way, "work_per_cycle_without_slip",
+          figure.panels[0], "without slip" + way, "work_per_cycle_without_slip",
           [](const DampingResult& one) { return one.work_per_cycle_without_slip; }, none);
     add(
-        figure.panels[1], form + way, "",
+        figure.panels[2], way.empty() ? "" : way.substr(2), "",
         [](const DampingResult& one) {
           return 100 * (one.small_amplitude_work / one.work_per_cycle_without_slip - 1);
         },
         none);
     add(
-        figure.panels[2], (slips ? "γ with slip" : "γ") + way, "damping_constant",
+        figure.panels[1], (slips ? "with slip" : "without slip") + way, "damping_constant",
         [](const DampingResult& one) { return one.damping_constant; },
         [](const DampingResult& one) { return one.damping_constant_error(); });
     if (slips)
       add(
-          figure.panels[2], "γ without slip" + way, "damping_constant_without_slip",
+          figure.panels[1], "without slip" + way, "damping_constant_without_slip",
           [](const DampingResult& one) { return one.damping_constant_without_slip; },
           [](const DampingResult& one) { return one.damping_constant_without_slip_error(); });
     // The closed form is the same in all directions.
@@ -269,10 +270,10 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
         figure.panels[0], form, "small_amplitude_work",
         [](const DampingResult& one) { return one.small_amplitude_work; }, none);
     add(
-        figure.panels[2], form, "",
+        figure.panels[1], form, "",
         [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
         none);
-    for (const std::size_t panel : {0u, 2u})
+    for (const std::size_t panel : {0u, 1u})
       if (!figure.panels[panel].curves.empty())
         figure.panels[panel].curves.back().style = Style::dashed;
   }
@@ -467,7 +468,7 @@ Panel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
     }
     return panel;
   }
-  panel.y = axis_of("damping_constant", false, "damping constant γ");
+  panel.y = axis_of("damping_constant");
   const bool over_amplitude = amplitudes > 1;
   panel.x = over_amplitude ? amplitude : frequency;
   Curve curve{.x = over_amplitude ? map.normal_amplitude : hertz, .style = Style::line_and_points};

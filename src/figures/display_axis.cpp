@@ -10,6 +10,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <string_view>
+#include <tuple>
 
 namespace salebra::figures {
 namespace {
@@ -18,13 +19,22 @@ namespace {
 // kg.
 constexpr std::array<std::string_view, 14> scalable = {
     "m", "N", "Pa", "J", "W", "s", "Hz", "N/m", "N/m²", "N s/m", "rad/s", "m/s", "J/m", "N/m^2"};
+// Units of densities and wave numbers: the prefix belongs to the metre, so that it is inverted.
+constexpr std::array<std::string_view, 2> inverse = {"1/m", "rad/m"};
 
-std::pair<std::string_view, double> prefix_for(double largest) {
+/// The unit with the prefix that suits a value, and the factor to this unit.
+std::pair<std::string, double> prefixed(const std::string& unit, double value) {
   constexpr std::array<std::string_view, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
+  const bool inverted = std::ranges::find(inverse, unit) != inverse.end();
+  if (!(value > 0) || (!inverted && std::ranges::find(scalable, unit) == scalable.end()))
+    return {unit, 1};
   // The factor 1 + 1e-9 keeps rounding from giving a power of 1000 the next lower prefix.
-  const double thousands = std::floor(std::log10(largest * (1 + 1e-9)) / 3);
-  const int power = static_cast<int>(std::clamp(thousands, -5.0, 3.0));
-  return {prefixes[static_cast<std::size_t>(power + 5)], std::pow(10.0, -3 * power)};
+  const double thousands = std::floor(std::log10(value * (1 + 1e-9)) / 3);
+  const int power = static_cast<int>(std::clamp(inverted ? -thousands : thousands, -5.0, 3.0));
+  const std::string prefix(prefixes[static_cast<std::size_t>(power + 5)]);
+  return inverted
+             ? std::pair(unit.substr(0, unit.size() - 1) + prefix + "m", std::pow(10.0, 3 * power))
+             : std::pair(prefix + unit, std::pow(10.0, -3 * power));
 }
 
 std::string number(double value) { return fmt::format("{:g}", value); }
@@ -65,7 +75,7 @@ double DisplayAxis::display(double value) const {
 
 DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data,
                          int labels) {
-  double least = std::numeric_limits<double>::infinity(), most = -least, largest = 0;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   bool any = false;
   const auto see = [&](double value) {
     if (!std::isfinite(value)) return;
@@ -82,18 +92,14 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
   require_that(any, field, "no value is finite, so there is nothing to draw");
   require(least <= most && (!axis.logarithmic || least > 0), field,
           number(least) + " to " + number(most), "is not a valid range for this axis");
-  largest = std::max(std::abs(least), std::abs(most));
 
   DisplayAxis out;
   out.logarithmic = axis.logarithmic;
-  std::string unit = axis.unit;
-  if (largest > 0 && std::ranges::find(scalable, axis.unit) != scalable.end()) {
-    const auto [prefix, factor] = prefix_for(largest);
-    unit = std::string(prefix) + unit;
-    out.factor = factor;
-  }
-  out.unit = unit;
-  out.label = unit.empty() ? axis.label : axis.label + " (" + unit + ")";
+  // The middle of a logarithmic axis has the short numbers.
+  std::tie(out.unit, out.factor) =
+      prefixed(axis.unit, axis.logarithmic ? std::sqrt(least) * std::sqrt(most)
+                                           : std::max(std::abs(least), std::abs(most)));
+  out.label = out.unit.empty() ? axis.label : axis.label + " (" + out.unit + ")";
   if (axis.low) out.low = out.display(*axis.low);
   if (axis.high) out.high = out.display(*axis.high);
   if (axis.logarithmic) {

@@ -193,7 +193,9 @@ class PanelScript {
     if (axis.high) most = *axis.high;
     // If all values are equal up to round-off, gnuplot chooses the range.
     if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
-    const double padding = margin * (most - least);
+    // An axis does not magnify a value that is constant to within a percent.
+    const double size = std::max(std::abs(least), std::abs(most));
+    const double padding = most - least < 0.01 * size ? 0.02 * size : margin * (most - least);
     // If no value is negative the axis does not extend below zero; if none is positive, not above
     // zero.
     if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - padding) : least - padding;
@@ -355,7 +357,7 @@ class PanelScript {
 
   void write_frame() {
     line("reset");
-    line("set encoding utf8");
+    line("set encoding utf8\nset minussign");
     line("set border lw 0.8\nset tics in scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(panel_.title));
     line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_);
@@ -376,12 +378,12 @@ class PanelScript {
       const double low = std::max(axis.display(range.low), axis.low.value_or(-HUGE_VAL)),
                    high = std::min(axis.display(range.high), axis.high.value_or(HUGE_VAL));
       if (!(low < high)) continue;
-      line("set object rectangle {} behind fc rgb '#D55E00' fs solid 0.12 noborder",
+      line("set object rectangle {} behind fc rgb '#808080' fs solid 0.15 noborder",
            side_to_side(range.vertical, low, high));
       if (!range.name.empty())
-        plots_.push_back(fmt::format(
-            "NaN with boxes lc rgb '#D55E00' fs solid 0.12 border lc rgb '#D55E00' title {}",
-            literal(range.name)));
+        plots_.push_back(
+            fmt::format("NaN with boxes lc rgb '#808080' fs solid 0.15 noborder title {}",
+                        literal(range.name)));
     }
     for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;

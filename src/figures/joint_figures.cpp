@@ -36,11 +36,12 @@ Curve backbone_of(const std::vector<double>& displacement, const std::vector<dou
 Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
                  const std::vector<double>& loop,
                  const std::array<std::vector<double>, 2>& limits) {
-  std::vector<double> force, work;
+  std::vector<double> force, amplitude, work;
   auto [low, high] = limits;
   const bool several = !low.empty();
   for (const JointLoss& one : losses) {
     force.push_back(one.tangential_force);
+    amplitude.push_back(one.tangential_amplitude);
     work.push_back(one.work_per_cycle);
     if (several) continue;
     low.push_back(one.work_per_cycle - one.work_error);
@@ -59,19 +60,27 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
                                : "Loss of a joint in a cycle of the tangential motion, with its "
                                  "error, and the loop of the largest motion.",
                 .columns = 2};
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
-                           .x = axis_of("tangential_force", spans_decades(force)),
-                           .y = axis_of("work_per_cycle", spans_decades(work), "loss W")});
+  // The force does not grow further while the joint slides; then the amplitude tells the motions
+  // apart.
+  bool slides = false;
+  for (std::size_t k = 1; k < force.size(); ++k)
+    slides = slides || std::abs(force[k] - force[k - 1]) < 1e-3 * force[k];
+  const std::vector<double>& along = slides ? amplitude : force;
+  figure.panels.push_back(
+      {.title = "Energy dissipated in a cycle",
+       .x = axis_of(slides ? "tangential_amplitude" : "tangential_force", grows_by_factors(along)),
+       .y = axis_of("work_per_cycle", spans_decades(work)),
+       .legend = Legend::top_left});
   figure.panels.back().curves = {{.name = several ? "loss W, 95 %" : "loss W",
                                   .quantity = "work_per_cycle",
-                                  .x = force,
+                                  .x = along,
                                   .y = work,
                                   .low = low,
                                   .high = high,
                                   .style = Style::line_and_points}};
   figure.panels.push_back({.title = "Largest motion: W = " + loss,
                            .x = axis_of("tangential_amplitude", false, "displacement x"),
-                           .y = axis_of("tangential_force", false, "tangential force T"),
+                           .y = axis_of("tangential_force", false, "tangential force F_x"),
                            .legend = Legend::top_left});
   figure.panels.back().curves = {{.name = "loop", .x = displacement, .y = loop},
                                  backbone_of(displacement, loop)};

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure of oscillating contacts: contact regions, work over the time, loops.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <salebra/analysis/oscillation.hpp>
 #include <salebra/figures/figures.hpp>
@@ -64,18 +67,33 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
                     "Cells that are always in contact (black) and sometimes (grey), and the "
                     "work over a cycle."};
   const bool single = outcomes.size() == 1;
+  if (!outcomes.empty()) {
+    const OscillationCase& run = outcomes.front().run;
+    figure.caption += fmt::format(
+        " {}{}, mean indentation δ = {}; {} boundary; {}.",
+        std::visit([](const auto& motion) { return motion_text(motion); }, run.motion),
+        std::isfinite(outcomes.front().friction_coefficient) && outcomes.front().frictional
+            ? fmt::format(", µ = {:.3g}", outcomes.front().friction_coefficient)
+            : ", no slip",
+        format_quantity(run.indentation, Dimension::length, 4), name_of(run.body.boundary),
+        single ? names.front() : fmt::format("{}", fmt::join(names, ", ")));
+  }
   if (!single) {
     figure.title = "Contact regions and work over a cycle";
     figure.columns = static_cast<int>(outcomes.size());
   }
   for (std::size_t k = 0; k < outcomes.size(); ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
+  const auto way = [&](const OscillationOutcome& outcome) {
+    return single ? "" : names[static_cast<std::size_t>(&outcome - outcomes.data())] + ": ";
+  };
   for (const OscillationOutcome& outcome : outcomes) {
     const double work = outcome.work_per_cycle();
     figure.panels.push_back(work_panel(
-        outcome, std::abs(work) > outcome.uncertain_loss()
-                     ? "W = " + error_text(work, outcome.error_estimate(), Dimension::energy)
-                     : "no loss"));
+        outcome,
+        std::abs(work) > outcome.uncertain_loss()
+            ? way(outcome) + "W = " + error_text(work, outcome.error_estimate(), Dimension::energy)
+            : way(outcome) + "no loss"));
   }
   for (const OscillationOutcome& outcome : outcomes)
     if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));

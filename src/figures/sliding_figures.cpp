@@ -13,10 +13,12 @@ namespace salebra::figures {
 
 Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   Curve mean{.name = "computed", .quantity = "friction_coefficient"},
-      slow{.name = "static friction and Γv"};
+      slow{.name = "slow limit, µ_0 + Γv/F"};
   slow.style = Style::dashed;
-  Curve total{.name = "whole", .quantity = "work_per_cycle"},
+  if (points.size() <= 30) mean.style = Style::line_and_points;
+  Curve total{.name = "slip and springs that open", .quantity = "work_per_cycle"},
       opening{.name = "springs that open", .quantity = "relaxation_work"};
+  total.style = opening.style = mean.style;
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
@@ -28,16 +30,19 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
     total.y.push_back(state.relaxation_work + state.slip_work);
     opening.y.push_back(state.relaxation_work);
   }
-  const Axis x = axis_of("velocity", spans_decades(mean.x));
-  Figure figure{.kind = "sliding",
-                .caption =
-                    "Friction of steady sliding beside a normal oscillation, and the energy "
-                    "lost in a normal cycle.",
-                .columns = 2};
-  figure.panels.push_back({.title = "Friction coefficient of steady sliding",
-                           .x = x,
-                           .y = {.label = "mean tangential over mean normal force"},
-                           .legend = Legend::top_left});
+  const Axis x = axis_of("velocity", grows_by_factors(mean.x));
+  Figure figure{
+      .kind = "sliding",
+      .caption =
+          "Mean tangential over mean normal force of steady sliding beside a normal oscillation, "
+          "with its limit for slow sliding (static friction and damping constant Γ), and the "
+          "energy lost in a normal cycle.",
+      .columns = 2};
+  figure.panels.push_back(
+      {.title = "Friction of steady sliding",
+       .x = x,
+       .y = axis_of("friction_coefficient", false, "coefficient of friction F_x/F"),
+       .legend = Legend::top_left});
   figure.panels.back().curves = {mean, slow};
   figure.panels.push_back({.title = "Energy dissipated in a normal cycle",
                            .x = x,
@@ -51,7 +56,11 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
   const bool relative = !problem.velocity_ratios.empty();
   const std::vector<double>& along = relative ? problem.velocity_ratios : problem.velocities;
   const std::vector<double>& amplitudes = problem.normal_amplitude;
-  Figure figure{.kind = "sliding_map", .columns = 2};
+  Figure figure{.kind = "sliding_map",
+                .caption =
+                    "Mean tangential over mean normal force of steady sliding beside a normal "
+                    "oscillation, and its growth with the velocity; white where it does not grow.",
+                .columns = 2};
   const auto panel = [&](const char* title, Axis scale, double SteadySliding::*member) {
     Image image{.x = along, .y = amplitudes, .scale = std::move(scale)};
     image.values = Field(Index(along.size()), Index(amplitudes.size()));
@@ -63,14 +72,15 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
       }
     figure.panels.push_back(
         {.title = title,
-         .x = axis_of(relative ? "velocity_ratio" : "velocity", spans_decades(along)),
-         .y = axis_of("normal_amplitude", spans_decades(amplitudes)),
+         .x = axis_of(relative ? "velocity_ratio" : "velocity", grows_by_factors(along)),
+         .y = axis_of("normal_amplitude", grows_by_factors(amplitudes)),
          .image = std::move(image)});
   };
-  panel("Friction coefficient of steady sliding", {.label = "mean T / mean F"},
+  panel("Friction of steady sliding", axis_of("friction_coefficient", false, "F_x/F"),
         &SteadySliding::friction_coefficient);
   panel("Growth of friction with velocity",
-        {.label = "dT/dv", .unit = "N s/m", .logarithmic = true}, &SteadySliding::sliding_damping);
+        {.label = "dF_x/dv", .unit = "N s/m", .logarithmic = true},
+        &SteadySliding::sliding_damping);
   return figure;
 }
 
@@ -89,7 +99,7 @@ Figure figure_of(const RegimeMap& map, double omega) {
                 .low = low,
                 .high = high};
   };
-  panel.x = axis("velocity v", "m/s", map.velocity);
+  panel.x = axis("sliding velocity v", "m/s", map.velocity);
   panel.y = axis("excursion X", "m", map.excursion);
   panel.image = Image{.x = map.velocity,
                       .y = map.excursion,
@@ -141,13 +151,13 @@ Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double 
                     "by the averaged one.",
                 .columns = 2};
   figure.panels.push_back({.title = "Velocity of the slider",
-                           .x = axis_of("time"),
-                           .y = {.label = "velocity", .unit = "m/s"},
+                           .x = axis_of("time", false, "time t"),
+                           .y = {.label = "velocity of the slider", .unit = "m/s"},
                            .legend = Legend::top_left});
   figure.panels.back().curves = {velocity, averaged_velocity};
   figure.panels.push_back({.title = "Force of the spring",
-                           .x = axis_of("time"),
-                           .y = {.label = "k(Vt − x)", .unit = "N"},
+                           .x = axis_of("time", false, "time t"),
+                           .y = {.label = "spring force k(Vt − x)", .unit = "N"},
                            .legend = Legend::top_left});
   figure.panels.back().curves = {force, averaged_force};
   return figure;

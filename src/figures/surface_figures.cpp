@@ -10,26 +10,72 @@
 #include <salebra/figures/figures.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/twin.hpp>
 #include <utility>
 
 #include "axes.hpp"
+#include "surface/profile_law.hpp"
 
 namespace salebra::figures {
 namespace {
 
-Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
+/// The 95 % interval of the mean of n independent powers.
+void add_interval(Curve& curve, double mean, double powers) {
+  const auto limit = [&](double share) {
+    return 2 * powers * mean / gsl_cdf_chisq_Pinv(share, 2 * powers);
+  };
+  curve.low.push_back(limit(0.975));
+  curve.high.push_back(limit(0.025));
+}
+
+/// The power law q^{-exponent} in the fitted range, at the level of the powers there, each with its
+/// weight.
+Curve law_of(const HurstEstimate& hurst, double exponent, std::string name, const Curve& measured,
+             const std::vector<double>& weights) {
+  double level = 0, weight = 0;
+  for (std::size_t k = 0; k < measured.x.size(); ++k) {
+    const double q = measured.x[k];
+    if (q < hurst.wavenumber_min || q > hurst.wavenumber_max) continue;
+    level += weights[k] * measured.y[k] * std::pow(q, exponent);
+    weight += weights[k];
+  }
+  Curve law{.name = std::move(name), .style = Style::dashed};
+  for (const double q : {hurst.wavenumber_min, hurst.wavenumber_max}) {
+    law.x.push_back(q);
+    law.y.push_back(level / weight * std::pow(q, -exponent));
+  }
+  return law;
+}
+
+/// Roll-off and short cut-off of a law, as far as it has them.
+void add_ends(Panel& panel, const SelfAffineFit& law, const std::string& way) {
+  for (const auto& [name, length] :
+       {std::pair("roll-off", law.rolloff.value), {"cut-off", law.short_cutoff.value}})
+    if (std::isfinite(length))
+      panel.lines.push_back(
+          {.at = 2 * std::numbers::pi / length,
+           .vertical = true,
+           .name = name + way + " " + format_quantity(length, Dimension::length, 3)});
+}
+
+std::string hurst_text(const HurstEstimate& hurst) {
+  return fmt::format("H = {:.2f} ({:.2f} … {:.2f})", hurst.value, hurst.low, hurst.high);
+}
+
+Panel spectrum_panel(const SurfaceSpectrum& of) {
+  const PowerSpectrum& spectrum = *of.spectrum;
+  const HurstEstimate& hurst = of.law.hurst;
   const RadialSpectrum radial = radial_spectrum(spectrum, 6);
-  Panel panel;
-  panel.title = hurst.found() ? fmt::format("Hurst exponent H = {:.2f} ({:.2f} … {:.2f})",
-                                            hurst.value, hurst.low, hurst.high)
-                              : "power spectral density";
-  panel.x = axis_of("wavenumber", true, "wave number q");
-  panel.y = axis_of("psd", true, "power spectral density C(q)");
-  panel.legend = Legend::bottom_left;
+  Panel panel{
+      .title = hurst.found() ? "Hurst exponent " + hurst_text(hurst) : "Power spectral density",
+      .x = axis_of("wavenumber", true, "wave number q"),
+      .y = axis_of("psd", true, "power spectral density C"),
+      .legend = Legend::bottom_left};
   Curve measured{.name = "radial mean, 95 %", .quantity = "psd", .style = Style::line_and_points};
+  std::vector<double> weights;
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
@@ -38,32 +84,55 @@ Panel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) 
     if (!(radial.psd[k] > 1e-13 * strongest)) continue;
     measured.x.push_back(radial.wavenumber[k]);
     measured.y.push_back(radial.psd[k]);
-    // A mode and its mirror image are one number with two degrees of freedom.
-    const double freedom = static_cast<double>(radial.modes[k]) / spectrum.correlated_modes;
-    const auto limit = [&](double share) {
-      return freedom * radial.psd[k] / gsl_cdf_chisq_Pinv(share, freedom);
-    };
-    measured.low.push_back(limit(0.975));
-    measured.high.push_back(limit(0.025));
+    weights.push_back(static_cast<double>(radial.modes[k]));
+    // A mode and its mirror image are one power.
+    add_interval(measured, radial.psd[k], weights.back() / 2 / spectrum.correlated_modes);
   }
   panel.curves.push_back(std::move(measured));
-  if (hurst.found()) {
-    // Draws a power law with the fitted exponent H. Its factor is the mean of C(q) q^{2(1+H)} over
-    // the Fourier modes in the fitted range (C: spectral density at the wavenumber q).
-    double level = 0, weight = 0;
-    for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
-      const double q = radial.wavenumber[k];
-      if (q < hurst.wavenumber_min || q > hurst.wavenumber_max) continue;
-      const double modes = static_cast<double>(radial.modes[k]);
-      level += modes * radial.psd[k] * std::pow(q, 2 * (1 + hurst.value));
-      weight += modes;
+  if (hurst.found())
+    panel.curves.push_back(law_of(hurst, 2 * (1 + hurst.value), "power law q^{−2(1+H)}",
+                                  panel.curves.front(), weights));
+  add_ends(panel, of.law, "");
+  return panel;
+}
+
+/// The spectra of profiles across and along the lay.
+Panel lay_panel(const SurfaceSpectrum& of) {
+  const PowerSpectrum& spectrum = *of.spectrum;
+  Panel panel{.title = "Hurst exponent " + hurst_text(of.of_lay->across.hurst) + " across",
+              .x = axis_of("wavenumber", true, "wave number q"),
+              .y = axis_of("profile_psd", true, "power spectral density C_1 of profiles"),
+              .legend = Legend::bottom_left};
+  if (!of.of_lay->across.hurst.found()) panel.title = "Power spectral density of profiles";
+  for (const bool along : {false, true}) {
+    const SelfAffineFit& law = along ? of.of_lay->along : of.of_lay->across;
+    const double direction = of.lay_angle + (along ? 0 : std::numbers::pi / 2);
+    const std::string way = along ? " along" : " across";
+    const double lowest =
+        2 * std::numbers::pi *
+        std::hypot(std::cos(direction) / spectrum.grid.lx, std::sin(direction) / spectrum.grid.ly);
+    Curve measured{.name = way.substr(1) + " the lay, 95 %",
+                   .quantity = "profile_psd",
+                   .style = Style::line_and_points,
+                   .color = along ? 1 : 0};
+    std::vector<double> weights;
+    double strongest = 0;
+    for (const detail::SpectrumBin& bin : detail::profile_bins(spectrum, direction, lowest)) {
+      strongest = std::max(strongest, bin.power);
+      if (!(bin.power > 1e-10 * strongest)) continue;
+      measured.x.push_back(bin.wavenumber);
+      measured.y.push_back(bin.power);
+      weights.push_back(bin.modes);
+      add_interval(measured, bin.power, bin.modes);
     }
-    Curve law{.name = "power law q^{−2(1+H)}", .style = Style::dashed};
-    for (const double q : {hurst.wavenumber_min, hurst.wavenumber_max}) {
-      law.x.push_back(q);
-      law.y.push_back(level / weight * std::pow(q, -2 * (1 + hurst.value)));
+    panel.curves.push_back(std::move(measured));
+    if (law.hurst.found()) {
+      panel.curves.push_back(law_of(law.hurst, 1 + 2 * law.hurst.value,
+                                    fmt::format("q^{{−(1+2H)}}, H = {:.2f}", law.hurst.value),
+                                    panel.curves.back(), weights));
+      panel.curves.back().color = along ? 8 : 6;
     }
-    if (weight > 0) panel.curves.push_back(std::move(law));
+    add_ends(panel, law, way);
   }
   return panel;
 }
@@ -72,9 +141,9 @@ Panel distribution_panel(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
   Panel panel;
-  panel.title = fmt::format("skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
+  panel.title = fmt::format("Skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
   panel.x = axis_of("height", false, "height");
-  panel.y = axis_of("height_density", false, "density");
+  panel.y = axis_of("height_density", false, "probability density");
   panel.curves.push_back({.name = "heights",
                           .x = histogram.height,
                           .y = histogram.height_density,
@@ -96,8 +165,16 @@ Panel distribution_panel(const Surface& surface) {
 SurfaceSpectrum spectrum_of(const Surface& surface) {
   SurfaceSpectrum result;
   if (surface.undefined_points() > 0) return result;
-  result.spectrum = power_spectrum(surface);
-  result.hurst = estimate_hurst(*result.spectrum);
+  const SurfaceLay lay = surface_lay(surface);
+  if (lay.found()) {
+    // Profiles need a window on every surface.
+    result.spectrum = power_spectrum(surface, Window::hann);
+    result.of_lay = fit_self_affine(*result.spectrum, lay);
+    result.lay_angle = lay.angle;
+  } else {
+    result.spectrum = power_spectrum(surface);
+    result.law = fit_self_affine(*result.spectrum);
+  }
   return result;
 }
 
@@ -106,16 +183,21 @@ Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure{
       .kind = "surface",
       .caption = fmt::format(
-          "Heights of the surface ({} x {} points), its radial power spectral density with "
-          "the 95 % interval of each mean{}, and the distribution of the heights beside the "
-          "Gaussian of the same mean and rms height.",
-          surface.grid.nx, surface.grid.ny, of.hurst.found() ? " and the fitted power law" : "")};
+          "Heights of the surface ({} × {} points), its {} with the 95 % interval of each mean{}, "
+          "and the distribution of the heights beside the Gaussian of the same mean and rms "
+          "height.",
+          surface.grid.nx, surface.grid.ny,
+          of.of_lay ? "power spectral density of profiles across and along the lay"
+                    : "radial power spectral density",
+          of.law.hurst.found() || (of.of_lay && of.of_lay->across.hurst.found())
+              ? " and the fitted power law in the range of its fit"
+              : "")};
   figure.panels.push_back(
       map_panel(surface.grid, surface.heights,
-                "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3),
+                "Rms height " + format_quantity(statistics.rms_height, Dimension::length, 3),
                 axis_of("heights", false, "height")));
   if (of.spectrum && of.spectrum->psd.maxCoeff() > 0)
-    figure.panels.push_back(spectrum_panel(*of.spectrum, of.hurst));
+    figure.panels.push_back(of.of_lay ? lay_panel(of) : spectrum_panel(of));
   if (statistics.rms_height > 0) figure.panels.push_back(distribution_panel(surface));
   figure.columns = static_cast<int>(figure.panels.size());
   return figure;
@@ -170,7 +252,7 @@ Figure figure_of(const ProfilePsd& spectrum) {
 
 Figure figure_of(const HeightHistogram& histogram) {
   return line_figure("height_histogram", axis_of("height", false, "height"),
-                     axis_of("height_density", false, "density"), histogram.height,
+                     axis_of("height_density", false, "probability density"), histogram.height,
                      histogram.height_density, Style::line_and_points);
 }
 

@@ -9,9 +9,9 @@ namespace salebra::figures {
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses) {
-  const Axis x = axis_of(quantity, spans_decades(values));
+  const Axis x = axis_of(quantity, grows_by_factors(values));
   const auto curve = [&](const char* name, const char* of, const auto& value) {
-    Curve out{.name = name, .quantity = of, .x = values};
+    Curve out{.name = name, .quantity = of, .x = values, .style = Style::line_and_points};
     for (const ViscoelasticLoss& loss : losses) out.y.push_back(value(loss));
     return out;
   };
@@ -34,13 +34,15 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       curve("elastic, relaxed modulus", "elastic_work",
             [](const auto& loss) { return loss.elastic_work; })};
   figure.panels.back().curves.back().style = Style::dashed;
-  figure.panels.push_back({.title = "Complex shear modulus",
-                           .x = x,
-                           .y = {.label = "modulus", .unit = "Pa", .logarithmic = true},
-                           .legend = Legend::top_left});
+  figure.panels.push_back(
+      {.title = "Complex shear modulus",
+       .x = x,
+       .y = {.label = "shear modulus G′, G″", .unit = "Pa", .logarithmic = true},
+       .legend = Legend::top_left});
   figure.panels.back().curves = {
-      curve("storage", "storage_modulus", [](const auto& loss) { return loss.storage_modulus; }),
-      curve("loss", "loss_modulus", [](const auto& loss) { return loss.loss_modulus; })};
+      curve("storage modulus G′", "storage_modulus",
+            [](const auto& loss) { return loss.storage_modulus; }),
+      curve("loss modulus G″", "loss_modulus", [](const auto& loss) { return loss.loss_modulus; })};
   return figure;
 }
 

@@ -41,9 +41,15 @@ class Strips {
   std::vector<double> limits_;
 };
 
-std::vector<detail::SpectrumBin> bins_along(const PowerSpectrum& spectrum, double direction,
-                                            const Strips& strips) {
+}  // namespace
+
+std::vector<detail::SpectrumBin> detail::profile_bins(const PowerSpectrum& spectrum,
+                                                      double direction, double lowest) {
   const double c = std::cos(direction), s = std::sin(direction);
+  const Grid2D& grid = spectrum.grid;
+  // The distance of wave numbers along the direction.
+  const double step = 2 * pi * std::max(std::abs(c) / grid.lx, std::abs(s) / grid.ly);
+  const Strips strips(lowest, pi / std::max(grid.dx(), grid.dy()), step);
   const RowPartition columns = spectrum.columns();
   constexpr std::size_t numbers = 4;
   const std::vector<double> sums = parallel::sum_blocks(
@@ -82,6 +88,8 @@ std::vector<detail::SpectrumBin> bins_along(const PowerSpectrum& spectrum, doubl
   return bins;
 }
 
+namespace {
+
 /// The mixing of wave numbers along a direction by Hann's window, which mixes each wave vector with
 /// its eight neighbours.
 detail::WaveMixing mixing_along(const Grid2D& grid, double direction) {
@@ -104,9 +112,7 @@ struct Along {
 
 Along fit_along(const PowerSpectrum& spectrum, double direction, double shortest) {
   const Grid2D& grid = spectrum.grid;
-  // The wave numbers of the grid along the direction, and their distance.
   const double c = std::abs(std::cos(direction)), s = std::abs(std::sin(direction));
-  const double step = 2 * pi * std::max(c / grid.lx, s / grid.ly);
   const double end = pi / std::max(grid.dx(), grid.dy());
   const double lowest = 4 * 2 * pi * std::hypot(c / grid.lx, s / grid.ly);
   // Waves shorter than two and a half cells suffer most from aliasing, and no law describes their
@@ -114,8 +120,7 @@ Along fit_along(const PowerSpectrum& spectrum, double direction, double shortest
   double highest = 0.8 * end;
   if (shortest > 0) highest = std::min(highest, 2 * pi / shortest);
   if (!(highest > lowest)) return {};
-  const std::vector<detail::SpectrumBin> bins =
-      bins_along(spectrum, direction, Strips(lowest, end, step));
+  const std::vector<detail::SpectrumBin> bins = detail::profile_bins(spectrum, direction, lowest);
   detail::ProfileLaw law = detail::fit_profile_law(bins, highest, mixing_along(grid, direction));
   spectrum.communicator.broadcast(&law, sizeof law);
   // Below 0 there is no law, but mostly a floor.

@@ -21,6 +21,11 @@ struct ProfileLaw : PowerLawRange {
   double q_short_low = IntervalEstimate::unknown, q_short_high = IntervalEstimate::unknown;
 };
 
+/// Powers of the profiles along a direction, rad from the x axis: C₁ in strips of wave vectors at
+/// right angles to it, from `lowest` on, rad/m. modes: independent powers of a strip. Collective.
+std::vector<SpectrumBin> profile_bins(const PowerSpectrum& spectrum, double direction,
+                                      double lowest);
+
 /// Fits A·C₁(q)·exp(−g q²) + floor, with C₁ of profile_density(), to the powers of profiles below
 /// `highest`, rad/m. If the power ends within the bins, waves beyond that end are missing from C₁.
 ProfileLaw fit_profile_law(const std::vector<SpectrumBin>& bins, double highest,

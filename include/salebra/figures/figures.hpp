@@ -5,6 +5,7 @@
 #include <optional>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
+#include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
 #include <string_view>
@@ -70,15 +71,19 @@ Figure curve_figure(std::string_view x, std::string_view y, Curve curve);
 /// The spectrum of a surface. A spectrum needs every point, so it is empty if a point is undefined.
 struct SurfaceSpectrum {
   std::optional<PowerSpectrum> spectrum;
-  HurstEstimate hurst;  ///< estimated from `spectrum`
+  SelfAffineFit law;  ///< of the mean over all directions
+  /// On a surface with a lay: the laws of profiles across and along it, and its angle, rad.
+  std::optional<DirectionalSelfAffineFit> of_lay = {};
+  double lay_angle = 0;
 };
 
-/// Cost: a Fourier transform.
+/// Cost: a Fourier transform, and the fits of the laws.
 SurfaceSpectrum spectrum_of(const Surface& surface);
 
-/// A surface in three panels: the map of its heights; its radial power spectral density with the
-/// 95 % interval of each mean and the fitted power law; the distribution of its heights with the Gaussian of the same mean and rms
-/// height. The second panel is left out if there is no spectrum or if it is zero.
+/// A surface in three panels: the map of its heights; its power spectral density, that of profiles
+/// across and along its lay if it has one, with 95 % intervals, the fitted laws, roll-off and
+/// cut-off; the distribution of its heights with the Gaussian of the same mean and rms height. The
+/// second panel is left out if there is no spectrum or if it is zero.
 Figure figure_of(const Surface& surface, const SurfaceSpectrum& of);
 Figure figure_of(const Surface& surface);
 /// Spectra, heights and correlations.
