@@ -434,7 +434,13 @@ TEST_CASE("The numbers of every picture are those of the answer of its command",
               "1MPa:1ms,2MPa:20ms --normal-amplitude 2um --drag-velocity 1um/s --frequency 10,100 "
               "--steps 64" +
                   body,
-              {"relaxation_work", "elastic_work", "storage_modulus", "loss_modulus"}}}) {
+              {"relaxation_work", "elastic_work", "storage_modulus", "loss_modulus"}},
+        // Over the force a joint that slides would be a vertical line.
+        Drawn{"joint --friction-coefficient 0.3 --tangential-amplitudes 10nm:10um:5" + law,
+              {"work_per_cycle"}},
+        Drawn{"damping --normal-amplitude 1:50nm:4 --frequency 20kHz" + law, {"damping_constant"}},
+        Drawn{"fit curve.h5", {"local_decay_length"}},
+        Drawn{"statistics rough.h5 --all", {"height_density"}}}) {
     CAPTURE(command);
     const json answer = test.answer(command + " --json --plot f.json --overwrite");
     const json figure = json::parse(test.read("f.json"));
@@ -461,6 +467,42 @@ TEST_CASE("The numbers of every picture are those of the answer of its command",
     for (const json& panel : figure["panels"])
       for (const json& line : panel["lines"]) CHECK_FALSE(line["name"].get<std::string>().empty());
   }
+}
+
+TEST_CASE("The map of sliding and the work of an oscillation are those of the answer", "[plot]") {
+  const ProgramTest test;
+  const json sliding = test.answer(
+      "sliding --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--friction-coefficient 0.3 --normal-amplitude 1:50nm:4 --frequency 20kHz --velocities "
+      "1um/s:1mm/s:3 --json --plot f.json");
+  const json map = json::parse(test.read("f.json"))["panels"][0]["image"]["values"];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      CHECK(map[i][j] == sliding["friction_coefficient"][3 * j + i]);
+
+  const json cycle = test.answer(
+      "oscillate --shape paraboloid --contact-modulus 1GPa --poisson 0.3 --points 32 --steps 16 "
+      "--json --plot f.json --overwrite");
+  const json figure = json::parse(test.read("f.json"));
+  const json& work = figure["panels"][1];
+  check_alike(numbers(work["curves"][0]["x"]), numbers(cycle["time_in_periods"]));
+  // In units of the loss of Eq. (12).
+  for (std::size_t k = 0; k < cycle["work"].size(); ++k)
+    CHECK(work["curves"][0]["y"][k].get<double>() * cycle["small_amplitude_work"].get<double>() ==
+          Approx(cycle["work"][k].get<double>()).epsilon(1e-12).margin(1e-20));
+  CHECK_THAT(figure["caption"].get<std::string>(),
+             Contains("u_z = 6 µm, u_x = 6 µm, φ_0 = 90°, no slip") && Contains("free boundary"));
+}
+
+TEST_CASE("A series of factors is along a logarithmic axis", "[plot]") {
+  const ProgramTest test;
+  const std::string law =
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz ";
+  test.done(law + "--normal-amplitude 1:8nm:4 --plot f.json");
+  CHECK(json::parse(test.read("f.json"))["panels"][0]["x"]["logarithmic"] == true);
+  test.done(law + "--normal-amplitude 1nm,2nm,3nm,4nm --plot f.json --overwrite");
+  CHECK(json::parse(test.read("f.json"))["panels"][0]["x"]["logarithmic"] == false);
 }
 
 TEST_CASE("A --plot without a name names the picture as its input", "[plot]") {
@@ -638,7 +680,7 @@ TEST_CASE("A picture of damping draws how far the small-amplitude form is off", 
                small = numbers(answer["small_amplitude_work"]);
   Values deviation;
   for (std::size_t k = 0; k < 3; ++k) deviation.push_back(100 * (small[k] / work[k] - 1));
-  check_alike(drawing.column(2, 0, 1), deviation, 1e-6);
+  check_alike(drawing.column(3, 0, 1), deviation, 1e-6);
   for (std::size_t k = 0; k < 3; ++k)
     CHECK(drawing.column(1, 1, 1)[k] / drawing.column(1, 0, 1)[k] ==
           Approx(small[k] / work[k]).epsilon(1e-7));
@@ -739,7 +781,7 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
     INFO(command);
     const Drawing drawing(test, command);
     CHECK_THAT(drawing.script(),
-               Contains("'rms height 0 m'") && !Contains("power spectral density"));
+               Contains("'Rms height 0 m'") && !Contains("power spectral density"));
   }
 }
 
@@ -750,8 +792,8 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
       "--drag-velocity 1mm/s --frequency 20kHz --json ";
   test.done(law + "--normal-amplitude 1:50nm:6 --plot curve.svg");
   const std::string curve = test.read("curve.svg");
-  CHECK_THAT(curve, Contains("amplitude of the normal oscillation (nm)"));
-  CHECK_THAT(curve, Contains("small-amplitude form"));
+  CHECK_THAT(curve, Contains("normal amplitude "));
+  CHECK_THAT(curve, Contains("closed form"));
   test.done(law + "--normal-amplitude 50nm --plot cycle.png");
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");

@@ -233,6 +233,23 @@ TEST_CASE("A band is drawn between its limits, the curve through its values", "[
   CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
 }
 
+TEST_CASE(
+    "A value that is constant to within a percent is not magnified, prefixes give short numbers",
+    "[plot]") {
+  Figure figure = force_figure();
+  Panel& panel = figure.panels[0];
+  panel.curves = {{.x = {1, 2}, .y = {5000, 5001}}};
+  // In kN, with 2 % of 5 kN on either side.
+  CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("set yrange [4.89998:5.10102]"));
+  // The prefix of 1/m belongs to the metre, and a logarithmic axis has that of its middle.
+  panel.y = {.label = "density", .unit = "1/m"};
+  panel.curves = {{.x = {1, 2}, .y = {1e7, 4e7}}};
+  CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("'density (1/µm)'"));
+  panel.y = {.label = "velocity", .unit = "m/s", .logarithmic = true};
+  panel.curves = {{.x = {1, 2}, .y = {1e-6, 1e-3}}};
+  CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("'velocity (µm/s)'"));
+}
+
 TEST_CASE("A logarithmic axis has more than one number, and its lines stay in its panel",
           "[plot]") {
   Figure figure = force_figure();
