@@ -180,7 +180,7 @@ Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading) {
         {axis_of("contact_area_fraction", false, "contact area A/A_0"),
          &ForceSample::contact_area_fraction}})
     figure.panels.push_back(
-        {.x = axis_of("indentation", false, "indentation"),
+        {.x = axis_of("indentation"),
          .y = y,
          .curves = {points_of(loading, "loading", &ForceSample::indentation, member),
                     points_of(unloading, "unloading", &ForceSample::indentation, member)},
