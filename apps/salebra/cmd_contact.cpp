@@ -209,7 +209,7 @@ void press_files(ContactArguments arguments, const std::vector<std::string>& fil
                  Session& session) {
   require_options_of_one(session, {{!arguments.surface.recipe.empty(), "--recipe"},
                                    {arguments.model != "bem", "--model"},
-                                                              {arguments.groups > 0, "--groups"},
+                                   {arguments.groups > 0, "--groups"},
                                    {arguments.dry_run.dry_run, "--dry-run"}});
   arguments.command->require_none_of(
       once, "takes one surface, and several are given; --csv writes their table");

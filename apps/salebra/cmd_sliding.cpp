@@ -149,8 +149,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
   AssumptionReport assumptions;
   for (const ContactSolution& one : contacts) {
     SlidingSolution solution =
-        solve(problem, one,
-              one.surface ? arguments.material.body() : Body(Material{}),
+        solve(problem, one, one.surface ? arguments.material.body() : Body(Material{}),
               session.context());
     add_assumptions(solution, problem, one, arguments.assumptions.parameters(arguments.material),
                     assumptions);

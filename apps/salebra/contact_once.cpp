@@ -118,8 +118,8 @@ class OneContact {
       AdhesiveContactOptions options = arguments_.adhesive_options(session_);
       options.contact.hardness = options_.hardness;
       const Body body = body_ ? *body_ : Body(material_);
-      state_ = press_adhesive(surface_, body, point_of(arguments_, surface_),
-                              arguments_.adhesion(), options);
+      state_ = press_adhesive(surface_, body, point_of(arguments_, surface_), arguments_.adhesion(),
+                              options);
       session_.warn_if(warning_of_process_zone(arguments_.adhesion(), surface_.grid, body));
     } else {
       const OperatingPoint point = point_of(arguments_, surface_);

@@ -105,9 +105,9 @@ void add_conduction(Command& app, Conduction& bodies) {
 
 void MaterialOptions::add_body_to(Command& app, const std::string& stiffness) {
   const Heading under(app, "Material");
-  app.add_option("--body", body_file,
-                 "file of a layered, graded or anisotropic body in place of the material; " +
-                     stiffness)
+  app.add_option(
+         "--body", body_file,
+         "file of a layered, graded or anisotropic body in place of the material; " + stiffness)
       ->file(FileUse::input);
 }
 

@@ -727,8 +727,8 @@ std::string heading(const StudyResult& result) {
   const std::string modulus = format_quantity(material.contact_modulus, Dimension::pressure);
   const std::optional<Body>& body = result.configuration.body;
   return fmt::format(
-      "surface     {} x {} points, {} x {}, {}{}\nrms height  {}\nrms slope   {}\n{}\n\n",
-      grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
+      "surface     {} x {} points, {} x {}, {}{}\nrms height  {}\nrms slope   {}\n{}\n\n", grid.nx,
+      grid.ny, format_quantity(grid.lx, Dimension::length),
       format_quantity(grid.ly, Dimension::length),
       count == 1 ? "1 surface" : fmt::format("{} surfaces", count),
       flowed ? ", as the first loading left it" : "",

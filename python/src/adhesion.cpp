@@ -108,10 +108,12 @@ void bind_press(nb::module_& m) {
               auto state = press_adhesive(
                   surface.surface, material.pressed(),
                   operating_point_of(pressure, mean_gap, indentation, force), adhesion, options);
-              return new BoundAdhesiveContact{
-                  {std::move(static_cast<NormalContactState&>(state)), surface.surface.grid,
-                   contact_modulus, options.contact.boundary, {material.body}},
-                  std::move(static_cast<AdhesionOfState&>(state))};
+              return new BoundAdhesiveContact{{std::move(static_cast<NormalContactState&>(state)),
+                                               surface.surface.grid,
+                                               contact_modulus,
+                                               options.contact.boundary,
+                                               {material.body}},
+                                              std::move(static_cast<AdhesionOfState&>(state))};
             },
             surface.surface.communicator);
       },
@@ -188,8 +190,8 @@ AdhesiveContactState
             progress,
             [&](Progress told) {
               options.contact.contact.on_progress = std::move(told);
-              const AdhesiveCycle cycle = adhesive_cycle(surface.surface, body,
-                                                         points, adhesion, options);
+              const AdhesiveCycle cycle =
+                  adhesive_cycle(surface.surface, body, points, adhesion, options);
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
                 ForceCurve curve;
                 curve.model = "bem";

@@ -170,8 +170,7 @@ void bind_simulations(nb::module_& m) {
                           progress, [&](const CycleOptions& chosen, const Progress&) {
                             return simulate_cycle(contact_sets.contact_sets, contact_sets.grid,
                                                   material.pressed(),
-                                                  trajectory(motion, mean_indentation),
-                                                  chosen);
+                                                  trajectory(motion, mean_indentation), chosen);
                           });
       },
       nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
@@ -242,23 +241,22 @@ InvalidInput
             else
               return material;
           }();
-          CycleSettings settings = cycle_settings(surface.surface.grid, body,
-                                                  oscillation(motion), mean_indentation, options);
+          CycleSettings settings = cycle_settings(surface.surface.grid, body, oscillation(motion),
+                                                  mean_indentation, options);
           if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
-          return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
-                            progress, [&](const CycleOptions& chosen, const Progress& told) {
-                              const NormalContactOptions normal{.boundary = chosen.stick.boundary,
-                                                                .on_progress = told};
-                              const Trajectory path = trajectory(motion, mean_indentation);
-                              if constexpr (sizeof...(Constant) > 0)
-                                return simulate_coupled_cycle(surface.surface, material, path,
-                                                              chosen, normal);
-                              else
-                                return simulate_frictional_cycle(
-                                    boundary_element_pressures(Surface(surface.surface), body,
-                                                               normal),
-                                    surface.surface.grid, body, path, chosen);
-                            });
+          return simulation(
+              options, checkpoint, checkpoint_every, resume, std::move(settings), progress,
+              [&](const CycleOptions& chosen, const Progress& told) {
+                const NormalContactOptions normal{.boundary = chosen.stick.boundary,
+                                                  .on_progress = told};
+                const Trajectory path = trajectory(motion, mean_indentation);
+                if constexpr (sizeof...(Constant) > 0)
+                  return simulate_coupled_cycle(surface.surface, material, path, chosen, normal);
+                else
+                  return simulate_frictional_cycle(
+                      boundary_element_pressures(Surface(surface.surface), body, normal),
+                      surface.surface.grid, body, path, chosen);
+              });
         },
         nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
         nb::kw_only(), nb::arg("friction_coefficient") = infinite, constant_argument...,
@@ -297,8 +295,8 @@ checkpoints; friction_coefficient: μ.
           return simulated_joint_loss(
               boundary_element_pressures(Surface(surface.surface), material.pressed(),
                                          {.boundary = options.stick.boundary, .on_progress = told}),
-              surface.surface.grid, material.pressed(), mean_indentation, {motion, normal_amplitude, phase},
-              options);
+              surface.surface.grid, material.pressed(), mean_indentation,
+              {motion, normal_amplitude, phase}, options);
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("mean_indentation"), nb::kw_only(),

@@ -240,10 +240,7 @@ class SurfaceDamper {
  public:
   SurfaceDamper(const DamperProblem& problem, const Body& body, const Context& context,
                 DamperSolution& solution)
-      : problem_(problem),
-        body_(body),
-        solution_(solution),
-        about_(*solution.contact.curve) {
+      : problem_(problem), body_(body), solution_(solution), about_(*solution.contact.curve) {
     options_ = {.hold = problem.hold,
                 .amplitude = problem.amplitude,
                 .friction_coefficient = problem.parameters.friction_coefficient,
@@ -332,9 +329,8 @@ class SurfaceDamper {
     solution_.warnings.push_back(fmt::format(
         "at the amplitude {} there is no damping constant, because {}",
         format_quantity(amplitude, Dimension::length),
-        loss.leaving_share > 0
-            ? leaving(loss.leaving_share)
-            : "its error is larger than the constant; use a finer surface"));
+        loss.leaving_share > 0 ? leaving(loss.leaving_share)
+                               : "its error is larger than the constant; use a finer surface"));
     loss.forget();
     return loss;
   }
@@ -533,8 +529,8 @@ std::optional<Body> prepare(DamperProblem& problem) {
 }
 
 /// Computes the damper of a contact in one direction.
-DamperSolution damper_of(DamperProblem problem, ContactSolution contact, const std::optional<Body>& body,
-                         const Context& context) {
+DamperSolution damper_of(DamperProblem problem, ContactSolution contact,
+                         const std::optional<Body>& body, const Context& context) {
   const std::vector<double>&amplitudes = problem.normal_amplitude,
         &omega = problem.angular_frequency;
   DamperSolution solution{std::move(contact)};

@@ -23,8 +23,7 @@ void require_converged(const std::vector<JointLoss>& losses, std::string_view wh
 
 /// Simulates every motion again cell by cell, at the same indentation.
 std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surface,
-                                const Body& body, double indentation,
-                                const Context& context) {
+                                const Body& body, double indentation, const Context& context) {
   const PressureFields pressures = boundary_element_pressures(surface, body);
   CycleOptions options{.friction_coefficient = problem.parameters.friction_coefficient,
                        .steps = *problem.direct_steps,
@@ -178,8 +177,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
   }
   if (problem.direct_steps) {
     problem.motions = of_sample(problem.motions, ratio);
-    solution.simulated = of_part(
-        simulate(problem, *solution.contact.surface, *body, indentation, context), ratio);
+    solution.simulated =
+        of_part(simulate(problem, *solution.contact.surface, *body, indentation, context), ratio);
   }
   if (problem.angular_frequency > 0)
     for (std::vector<JointLoss>* losses : {&solution.losses, &solution.simulated})

@@ -224,9 +224,10 @@ void load_plastically(OscillationCase& contact, const OperatingPoint& point, dou
   const NormalContactOptions elastic{.boundary = contact.body.boundary, .on_progress = on_progress};
   NormalContactOptions plastic = elastic;
   plastic.hardness = hardness;
-  const double pressure = point.control == ControlQuantity::pressure
-                              ? point.value
-                              : contact_at(point, contact.body, contact.material, plastic).mean_pressure;
+  const double pressure =
+      point.control == ControlQuantity::pressure
+          ? point.value
+          : contact_at(point, contact.body, contact.material, plastic).mean_pressure;
   OscillatingBody residual = contact.body;
   contact.first_loading = load_first(
       residual.surface, hardness, modulus, pressure, elastic,
@@ -278,11 +279,10 @@ OscillationOutcome oscillation_by_intervals(OscillationCase run, const Oscillati
     // The polynomial through the forces of a cycle that lifts off does not describe a rough surface
     // at its mean indentation.
     outcome.intervals.force =
-        contact.indentation > 0
-            ? contact_at(at_indentation(contact.indentation), contact.body,
-                         contact.material, {.boundary = contact.body.boundary})
-                  .force
-            : 0;
+        contact.indentation > 0 ? contact_at(at_indentation(contact.indentation), contact.body,
+                                             contact.material, {.boundary = contact.body.boundary})
+                                      .force
+                                : 0;
     outcome.intervals.force_curvature = outcome.intervals.small_amplitude_work = unknown;
   }
   return outcome;
@@ -304,14 +304,14 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
                           options);
   });
   if (!routes.frictional || outcome.interrupted()) return;
-  const PressureFields intervals =
-      boundary_element_pressures(surface, material, normal);
+  const PressureFields intervals = boundary_element_pressures(surface, material, normal);
   outcome.frictional = run(routes.cycle, [&](const CycleOptions& options) {
     return simulate_frictional_cycle(intervals, surface.grid, material, trajectory, options);
   });
   if (!routes.coupled || outcome.interrupted()) return;
   outcome.coupled = run(routes.cycle, [&](const CycleOptions& options) {
-    return simulate_coupled_cycle(surface, constants_of(material, "coupled"), trajectory, options, normal);
+    return simulate_coupled_cycle(surface, constants_of(material, "coupled"), trajectory, options,
+                                  normal);
   });
 }
 

@@ -109,8 +109,8 @@ SlidingSolution solve(const SlidingProblem& asked, const ContactLaw& law,
   return solution;
 }
 
-SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contact,
-                      const Body& body, const Context& context) {
+SlidingSolution solve(const SlidingProblem& asked, const ContactSolution& contact, const Body& body,
+                      const Context& context) {
   SlidingProblem problem = asked;
   if (contact.surface) problem.hold = contact.hold;
   SlidingSolution solution = solve(problem, *contact.law, contact.points.front());

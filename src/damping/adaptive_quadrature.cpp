@@ -39,8 +39,8 @@ AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& c
   const auto run = [&] {
     IntervalQuadratureOptions quadrature = options.quadrature;
     quadrature.intervals = result.intervals;
-    result.quadrature = interval_quadrature(contact_sets(result.grid), result.grid, body,
-                                            motion, mean_indentation, quadrature);
+    result.quadrature = interval_quadrature(contact_sets(result.grid), result.grid, body, motion,
+                                            mean_indentation, quadrature);
     result.trials.push_back({result.grid, result.intervals, result.quadrature.work_per_cycle,
                              result.quadrature.stiffness_ratio, result.quadrature.error_estimate});
     const std::size_t count = result.trials.size();

@@ -367,8 +367,8 @@ NormalContactState solved(NormalContactState state) {
 }
 
 // Force curve with one load, with its tangential stiffness in full stick.
-ForceCurve stuck_at(double pressure, const Surface& surface, const Body& body,
-                    double direction, const Progress& on_progress) {
+ForceCurve stuck_at(double pressure, const Surface& surface, const Body& body, double direction,
+                    const Progress& on_progress) {
   SweepOptions sweep;
   sweep.stick = true;
   sweep.direction = direction;
@@ -590,8 +590,8 @@ detail::JointLoop detail::joint_loop(const ContactLaw& law, double indentation,
 }
 
 JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
-                               const Body& body, double indentation,
-                               const JointMotion& motion, const CycleOptions& options) {
+                               const Body& body, double indentation, const JointMotion& motion,
+                               const CycleOptions& options) {
   check(motion.tangential, options.friction_coefficient);
   require(std::isfinite(options.friction_coefficient), "friction_coefficient",
           options.friction_coefficient, "must be finite");

@@ -168,8 +168,8 @@ class ForcedBody final : public FrictionalBody {
       greatest = std::max(greatest, std::abs(forces_.back()));
     }
     require_positive(greatest, "tangential_force");
-    const StickStiffness stiffness = stick_stiffness(
-        pressure_at(0).contact_pressure > 0, grid, body, options.stick, /*along_x_only=*/true);
+    const StickStiffness stiffness = stick_stiffness(pressure_at(0).contact_pressure > 0, grid,
+                                                     body, options.stick, /*along_x_only=*/true);
     termination_ = stiffness.termination;
     stiffness_ = stiffness.xx;
     tolerance_ = 1e-7 * greatest;
@@ -290,7 +290,7 @@ CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const 
     const Trajectory at_rest{trajectory.indentation, [](double) { return 0.0; }};
     const detail::TrajectoryRange range = detail::checked_range(at_rest, options);
     ForcedBody cycle(contact_sets, grid, body, at_rest, trajectory.tangential_force, options,
-                    range);
+                     range);
     return detail::run_cycle(cycle, grid, at_rest, options);
   }
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);

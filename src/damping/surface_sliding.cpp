@@ -128,8 +128,7 @@ class SurfaceSlidingRun {
         motion_(motion),
         hold_(hold),
         oscillation_(Drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency}),
-        wide_(body, oscillation_, options_, hold, direction_of(load),
-              {{load.pressure, load.force}},
+        wide_(body, oscillation_, options_, hold, direction_of(load), {{load.pressure, load.force}},
               detail::RatioOfLoads({detail::point_of(load, detail::modulus_ratio_of(body))})) {
     half_ = detail::half_range(load, motion.normal.normal_amplitude, hold_ == Hold::force);
   }
@@ -237,7 +236,8 @@ class SurfaceSlidingRun {
 
   std::vector<SteadySliding> states_of(const VectorXd& positions, const VectorXd& stiffness,
                                        const StiffnessRatio& ratio) const {
-    const StiffnessLaw law(positions, stiffness, load_.force, ratio, detail::modulus_ratio_of(body_));
+    const StiffnessLaw law(positions, stiffness, load_.force, ratio,
+                           detail::modulus_ratio_of(body_));
     const OperatingPoint point = hold_ == Hold::indentation
                                      ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);

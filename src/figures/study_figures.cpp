@@ -425,7 +425,7 @@ StudyNumbers numbers_of(const StudyResult& result) {
   StudyNumbers numbers{.pressures = result.pressures,
                        .nominal_area = result.grid.area(),
                        .contact_modulus = configuration.material.contact_modulus,
-                       .modulus_ratio = configuration.material.modulus_ratio(),
+                       .modulus_ratio = configuration.pressed().modulus_ratio(),
                        .contact_scale = result.contact_scale,
                        .twin = configuration.of_twin()};
   for (const StudyModel& model : result.models()) {

@@ -194,9 +194,8 @@ constexpr std::array kinds{"stuck", "frictional", "coupled"};
 
 }  // namespace
 
-CycleSettings cycle_settings(const Grid2D& grid, const Body& body,
-                             const Oscillation& motion, double mean_indentation,
-                             const CycleOptions& options) {
+CycleSettings cycle_settings(const Grid2D& grid, const Body& body, const Oscillation& motion,
+                             double mean_indentation, const CycleOptions& options) {
   CycleSettings settings{{"arithmetic", arithmetic()}};
   const auto add = [&](const char* name, double value) {
     settings.emplace_back(name, fmt::format("{}", value));

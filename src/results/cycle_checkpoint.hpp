@@ -21,9 +21,8 @@ std::string fingerprint(const Field& values);
 
 /// The settings of a cycle except those that describe its contact. The caller adds these, for
 /// example the fingerprint of the heights.
-CycleSettings cycle_settings(const Grid2D& grid, const Body& body,
-                             const Oscillation& motion, double mean_indentation,
-                             const CycleOptions& options);
+CycleSettings cycle_settings(const Grid2D& grid, const Body& body, const Oscillation& motion,
+                             double mean_indentation, const CycleOptions& options);
 
 /// Writes states of cycles, at most one for each kind of body (stuck, frictional, coupled), to an
 /// HDF5 file. The file replaces the previous one in one step, so a complete file exists at any

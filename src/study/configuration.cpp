@@ -14,10 +14,10 @@
 #include <salebra/study/twin_file.hpp>
 #include <unordered_set>
 
+#include "body_table.hpp"
 #include "io/input_file.hpp"
 #include "io/number_table.hpp"
 #include "surface_table.hpp"
-#include "body_table.hpp"
 #include "toml_reader.hpp"
 
 namespace salebra {

@@ -228,7 +228,8 @@ void analyse(ModelResult& result, const StudyConfiguration& configuration, doubl
 }  // namespace
 
 bool stick_solves(const StudyConfiguration& configuration) {
-  return configuration.body || (configuration.stick && std::isfinite(configuration.material.cerruti_isotropic));
+  return configuration.body ||
+         (configuration.stick && std::isfinite(configuration.material.cerruti_isotropic));
 }
 
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
@@ -314,9 +315,8 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
   if (configuration.has(ContactModel::gw_deterministic))
     summits = detail::gathered(std::move(summits), surface.grid);
   const double scale =
-      configuration.body
-          ? pressure_scale(surface, *configuration.body)
-          : configuration.material.contact_modulus * realisation.moments.rms_slope();
+      configuration.body ? pressure_scale(surface, *configuration.body)
+                         : configuration.material.contact_modulus * realisation.moments.rms_slope();
   if (wants_picture(configuration, seed)) {
     realisation.picture = picture_of(surface, configuration);
     realisation.picture.mapped_load = Index(pressures.size() / 2);

@@ -58,14 +58,14 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
   // The last two entries say whether the surface is the only one, and whether it is the first. A
   // study of one surface drops uncertain losses, and the first of several surfaces computes the
   // numerical error for all.
-  bytes +=
-      bytes_of(point.body ? Material{} : point.material, point.pressures, point.relative_pressures, point.tolerance,
-               point.stick, point.flow_factors, point.window, point.models, point.adhesion,
-               point.known.hardness, point.known.friction_coefficient, point.known.excursion,
-               point.motion, point.damping.hold, point.damping.amplitude, point.damping.tolerance,
-               point.intervals, point.relative_error, point.seam, point.direction.index(),
-               std::visit([](auto value) { return static_cast<double>(value); }, point.direction),
-               seeds_of(point).size() == 1, seed == seeds_of(point).front());
+  bytes += bytes_of(
+      point.body ? Material{} : point.material, point.pressures, point.relative_pressures,
+      point.tolerance, point.stick, point.flow_factors, point.window, point.models, point.adhesion,
+      point.known.hardness, point.known.friction_coefficient, point.known.excursion, point.motion,
+      point.damping.hold, point.damping.amplitude, point.damping.tolerance, point.intervals,
+      point.relative_error, point.seam, point.direction.index(),
+      std::visit([](auto value) { return static_cast<double>(value); }, point.direction),
+      seeds_of(point).size() == 1, seed == seeds_of(point).front());
   if (point.body) bytes += bytes_of(responses_of(*point.body));
   return Checksum(bytes).value();
 }

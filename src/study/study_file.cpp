@@ -151,7 +151,7 @@ void write_surfaces(Table table, const StudyResult& result) {
   table.columns(items, {"realisation"});
   table.attributes(result.grid);
   table.group().attribute("contact_modulus", result.configuration.material.contact_modulus);
-  table.group().attribute("modulus_ratio", result.configuration.material.modulus_ratio());
+  table.group().attribute("modulus_ratio", result.configuration.pressed().modulus_ratio());
   table.group().attribute("contact_scale", result.contact_scale);
   std::string warnings, ensemble;
   for (const std::string& warning : result.warnings) warnings += warning + "\n";

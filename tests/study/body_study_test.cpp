@@ -54,10 +54,10 @@ TEST_CASE("Damping on a body is that of its contacts, without what only half-spa
   const Body body = GENERATE(film(), pad());
   const DampingSolution solution = solve(problem_on(body));
   const DampingResult& result = solution.results[0];
-  const ForceCurve curve = sweep_pressures(rough(), body, {pressure / 1.35, pressure, 1.35 * pressure},
-                                           {.stick = true});
-  const SurfaceDamping loss = surface_damping(
-      rough(), body, oscillation_of(problem_on(body).motions[0]).value(), curve)[1];
+  const ForceCurve curve =
+      sweep_pressures(rough(), body, {pressure / 1.35, pressure, 1.35 * pressure}, {.stick = true});
+  const SurfaceDamping loss =
+      surface_damping(rough(), body, oscillation_of(problem_on(body).motions[0]).value(), curve)[1];
   // The neighbouring loads, from which the change of K_t/K follows, are the same thirteen.
   CHECK(result.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
   CHECK(result.tangential_stiffness == Approx(curve.samples[1].tangential_stiffness).epsilon(1e-9));
@@ -86,25 +86,22 @@ TEST_CASE("A joint on a body loses what its simulation cell by cell loses", "[bo
   CHECK(std::abs(joint.losses[0].work_per_cycle - joint.simulated[0].work_per_cycle) <
         joint.losses[0].work_error + 0.01 * joint.simulated[0].work_per_cycle);
   // Springs in series: the pad shears as a whole under the mean traction.
-  const double K_t = solve(JointProblem{.contact = SurfaceContact{.surface = rough(),
-                                                                  .body = pad().measured_from(
-                                                                      Datum::mean_plane),
-                                                                  .pressure = {pressure}},
-                                        .motions = {TangentialAmplitude{2e-7}},
-                                        .parameters = {.friction_coefficient = 0.3}})
-                         .state.tangential_stiffness;
+  const double K_t =
+      solve(JointProblem{.contact = SurfaceContact{.surface = rough(),
+                                                   .body = pad().measured_from(Datum::mean_plane),
+                                                   .pressure = {pressure}},
+                         .motions = {TangentialAmplitude{2e-7}},
+                         .parameters = {.friction_coefficient = 0.3}})
+          .state.tangential_stiffness;
   const double shear = pad().compliance(0).in_plane / (side * side);
   if (body.datum() == Datum::base)
     CHECK(1 / joint.state.tangential_stiffness == Approx(1 / K_t + shear).epsilon(2e-3));
 }
 
 TEST_CASE("Sliding on a body has the relaxation damping of its loss", "[body]") {
-  const ContactSolution contact = solve(SurfaceContact{.surface = rough(),
-                                                       .body = film(),
-                                                       .pressure = {pressure},
-                                                       .normal_amplitude = 3e-7});
-  const SlidingSolution sliding =
-      solve(SlidingProblem{{3e-7}, 1e5, 0.3, {1e-4}}, contact, film());
+  const ContactSolution contact = solve(SurfaceContact{
+      .surface = rough(), .body = film(), .pressure = {pressure}, .normal_amplitude = 3e-7});
+  const SlidingSolution sliding = solve(SlidingProblem{{3e-7}, 1e5, 0.3, {1e-4}}, contact, film());
   DampingProblem problem = problem_on(film());
   problem.motions = {Drag{3e-7, 1e-6, 1e5}};
   const DampingResult loss = solve(problem).results[0];
@@ -124,8 +121,9 @@ TEST_CASE("A cycle on a body by intervals and by steps, with and without slip", 
   routes.frictional = true;
   routes.cycle.friction_coefficient = 1e3;  // nothing slips but the last cells before they open
   OscillationOutcome outcome = oscillation_by_intervals(contact, routes);
-  simulate_cycles(outcome, routes,
-                  [](const CycleOptions& options, const auto& simulate) { return simulate(options); });
+  simulate_cycles(outcome, routes, [](const CycleOptions& options, const auto& simulate) {
+    return simulate(options);
+  });
   const double work = outcome.intervals.work_per_cycle;
   CHECK(std::abs(outcome.cycle->work_per_cycle - work) <
         outcome.cycle->step_error + outcome.intervals.error_estimate + 0.01 * work);
@@ -173,8 +171,7 @@ poisson = 0.4
   const Surface surface = study_surface(study, 1);
   // Relative pressures are those of the scale of this surface.
   CHECK(result.pressures[0] == Approx(1e-3 * pressure_scale(surface, *study.body)).epsilon(1e-9));
-  const ForceCurve curve =
-      sweep_pressures(surface, *study.body, result.pressures, {.stick = true});
+  const ForceCurve curve = sweep_pressures(surface, *study.body, result.pressures, {.stick = true});
   const auto losses = surface_damping(surface, *study.body, study.motion, curve,
                                       surface_damping_options(study, surface.grid, 1));
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {

@@ -63,7 +63,7 @@ struct CurveContact {
 /// further loads as far as the oscillation presses or lifts it.
 struct SurfaceContact {
   Surface surface;
-  Body body;  ///< a Material, or any Body under a periodic surface
+  Body body;                          ///< a Material, or any Body under a periodic surface
   std::vector<double> pressure = {};  ///< nominal pressures, Pa
   /// Hardness, Pa, for a plastic first loading up to the largest pressure plus an oscillation about
   /// it, of half-spaces only. Empty: elastic.

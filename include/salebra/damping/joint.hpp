@@ -178,7 +178,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
 /// converged  in the result: every solve converged, and the loss is steady
 /// throws     InvalidInput wherever joint_loss() does
 JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
-                               const Body& body, double indentation,
-                               const JointMotion& motion, const CycleOptions& options);
+                               const Body& body, double indentation, const JointMotion& motion,
+                               const CycleOptions& options);
 
 }  // namespace salebra

@@ -412,7 +412,7 @@ struct StudyLoads {
   /// the grid (without random scatter), or that of the measured surface. With a body in place of
   /// half-spaces: pressure_scale() of the first surface.
   double contact_scale = 0;
-  double contact_modulus = 0;  ///< contact_scale/h'_rms, Pa
+  double contact_modulus = 0;          ///< contact_scale/h'_rms, Pa
   std::vector<double> pressures = {};  ///< of the sweep, Pa
   /// Warnings of read_surface(), warning_of_slope() and warning_of_pressure().
   std::vector<std::string> warnings = {};

@@ -86,7 +86,7 @@ class SurfaceResponse {
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
-  double single_unit_ = 1;  // m/Pa
+  double single_unit_ = 1;                             // m/Pa
   std::function<Convolution2D<float>()> make_single_;  // empty: there is none
   std::optional<Convolution2D<float>> single_;
   int fft_count_ = 0;

@@ -229,8 +229,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
       GENERATE(AdhesionPotential::exponential, AdhesionPotential::van_der_waals), 0.1, 3};
   const double pressure = GENERATE(0.003, 0.03);
   // A half-space, and a rubbery layer of four cells on a rigid base.
-  const Body body =
-      GENERATE(half_space, Body::layered({{4, 0.8, 0.45}}));
+  const Body body = GENERATE(half_space, Body::layered({{4, 0.8, 0.45}}));
   const Surface surface = steep(48);
   const AdhesiveContactState state =
       press_adhesive(surface, body, at_pressure(pressure), adhesion, {.tolerance = 1e-7});
@@ -498,7 +497,8 @@ TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][fir
   const auto energy_of = [&](const Field& depth) {
     Surface lowered = surface;
     lowered.heights -= depth;
-    return EnergyOfGap(lowered, half_space, adhesion, pressure)(gap) + (hardness - pressure) * depth.mean();
+    return EnergyOfGap(lowered, half_space, adhesion, pressure)(gap) +
+           (hardness - pressure) * depth.mean();
   };
   const double least = energy_of(sunk);
   CHECK(state.total_energy / surface.grid.area() == Approx(least).epsilon(1e-8));
