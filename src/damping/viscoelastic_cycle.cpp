@@ -24,6 +24,8 @@ using std::numbers::pi;
 
 // Anderson's extrapolation combines this many cycles.
 constexpr std::size_t kept_cycles = 12;
+// The search of a periodic state stalls after this many cycles without a smaller residual.
+constexpr int patience = 25;
 
 double factor(const MaxwellSpring& spring, const Stretching& step) {
   return 1 + (spring.ratios() * step.gain).sum();
@@ -117,8 +119,8 @@ class BranchLoss {
                                                record.displacement[n].data()[cell];
         for (Index k = 0; k < terms; ++k) {
           lost += spring_.ratios()[k] *
-                  (part.stay[k] * s[k + 1] * y[k] +
-                   part.mixed[k] * (s[k + 1] * du + ds * y[k]) + part.move[k] * ds * du);
+                  (part.stay[k] * s[k + 1] * y[k] + part.mixed[k] * (s[k + 1] * du + ds * y[k]) +
+                   part.move[k] * ds * du);
           y[k] = part.step.decay[k] * y[k] + part.step.gain[k] * du;
         }
         s = next;
@@ -139,8 +141,8 @@ class BranchLoss {
   Part part_of(double duration) const {
     const Index terms = spring_.terms();
     Part part{spring_.stretching(duration), Eigen::MatrixXd::Zero(terms + 1, terms + 1),
-              Eigen::VectorXd(terms + 1), detail::Branches(terms), detail::Branches(terms),
-              detail::Branches(terms)};
+              Eigen::VectorXd(terms + 1),   detail::Branches(terms),
+              detail::Branches(terms),      detail::Branches(terms)};
     const double alpha = factor(spring_, part.step);
     part.map(0, 0) = (alpha - 1) / alpha;
     part.load[0] = 1 / alpha;
@@ -209,8 +211,8 @@ class NormalSteps {
     } else {
       const Field displacement = -offset / alpha;
       // Without load the lowest plane that does not touch.
-      const double height = by_load ? (surface_.heights - displacement).maxCoeff()
-                                    : highest_ - point.value;
+      const double height =
+          by_load ? (surface_.heights - displacement).maxCoeff() : highest_ - point.value;
       state.contact_pressure = Field::Zero(surface_.grid.nx, surface_.grid.ny);
       state.gap = displacement - surface_.heights + height;
       state.indentation = highest_ - height;
@@ -251,11 +253,12 @@ SearchReport find_periodic(Field& x, Cycle& cycle, double scale, double lost,
   SearchReport report;
   detail::Anderson anderson(RowPartition(x.rows()), kept_cycles);
   report.termination = Termination::iteration_limit;
+  double best = std::numeric_limits<double>::infinity();
+  int since_best = 0;
   while (report.cycles < options.max_cycles) {
     const Field change = cycle.run(x) - x;
     ++report.cycles;
-    report.residual =
-        change.size() > 0 ? change.abs().maxCoeff() / (scale * lost) : 0;
+    report.residual = change.size() > 0 ? change.abs().maxCoeff() / (scale * lost) : 0;
     if (options.on_progress && !options.on_progress({.stage = "viscoelastic",
                                                      .fraction = 0,
                                                      .step = report.cycles,
@@ -263,6 +266,13 @@ SearchReport find_periodic(Field& x, Cycle& cycle, double scale, double lost,
       throw Interrupted("viscoelastic: interrupted");
     if (report.residual <= options.tolerance) {
       report.termination = Termination::converged;
+      break;
+    }
+    // The tolerance of the solves sets a floor to the residual.
+    since_best = report.residual < 0.9 * best ? 0 : since_best + 1;
+    best = std::min(best, report.residual);
+    if (since_best > patience) {
+      report.termination = Termination::stalled;
       break;
     }
     x = anderson.extrapolate(x, change);
@@ -285,7 +295,8 @@ struct CyclePath {
     const auto* drag = std::get_if<Drag>(&motion);
     if (drag) drift = drag->drag_velocity * period();
     for (int n = 0; n <= count; ++n) tangential.push_back(position(motion, n + 0.5));
-    range = drag ? std::abs(drift) : std::abs(std::get<EqualFrequency>(motion).tangential_amplitude);
+    range =
+        drag ? std::abs(drift) : std::abs(std::get<EqualFrequency>(motion).tangential_amplitude);
   }
   double period() const { return 2 * pi / angular_frequency; }
   // Tangential position after a number of steps from the minimum of the indentation.
@@ -579,16 +590,15 @@ class TangentialCycles {
     moved.row(0) += move;
     if (contact.any()) {
       TangentialField tractions = spread(guess);
-      const StickReport report = solver_.solve(contact, spread(alpha * moved + offset),
-                                               alpha * path_.range, tractions);
+      const StickReport report =
+          solver_.solve(contact, spread(alpha * moved + offset), alpha * path_.range, tractions);
       termination_ = std::max(termination_, report.termination);
       traction = gather(tractions);
       response = gather(solver_.displacement(contact, tractions, touched_));
     }
     Field displacement = (response - offset) / alpha;
     for (Index k = 0; k < columns(); ++k)
-      if (contact.data()[cells_[static_cast<std::size_t>(k)]])
-        displacement.col(k) = moved.col(k);
+      if (contact.data()[cells_[static_cast<std::size_t>(k)]]) displacement.col(k) = moved.col(k);
     history.move_to(step, displacement);
   }
 
@@ -641,8 +651,8 @@ class SteadyState {
       held_stiffness_ = std::isfinite(stiffness) ? stiffness * spring_.unrelaxed_stiffness()
                                                  : rest.force / rest.indentation;
     }
-    state_ = NormalCycles::state_of(
-        spring_, displacement_of(rest, surface, steps_.highest()), rest.indentation);
+    state_ = NormalCycles::state_of(spring_, displacement_of(rest, surface, steps_.highest()),
+                                    rest.indentation);
   }
 
   ViscoelasticCycle cycle(const Oscillation& motion, int count) {
@@ -663,11 +673,10 @@ class SteadyState {
     const double area = surface_.grid.cell_area();
     const BranchLoss branch_loss(spring_, series_);
     set_normal(result, normal, path, found);
-    result.dissipated =
-        area * branch_loss(normal.record(),
-                           std::vector<double>(static_cast<std::size_t>(path.steps),
-                                               path.period() / path.steps),
-                           {});
+    result.dissipated = area * branch_loss(normal.record(),
+                                           std::vector<double>(static_cast<std::size_t>(path.steps),
+                                                               path.period() / path.steps),
+                                           {});
     if (path.range > 0 && !(result.contact_area_max > 0)) result.tangential_work = 0;
     if (path.range > 0 && result.contact_area_max > 0) {
       TangentialCycles tangential(surface_.grid, body_, spring_, path, normal.sets(),
@@ -677,18 +686,16 @@ class SteadyState {
           find_periodic(start, tangential, path.range, lost, options_);
       set_tangential(result, tangential, motion, path, tangentially);
       for (const Index component : {0, 1})
-        result.dissipated += area * branch_loss(tangential.record(component),
-                                                tangential.durations(),
-                                                tangential.growth_traction().row(component));
+        result.dissipated +=
+            area * branch_loss(tangential.record(component), tangential.durations(),
+                               tangential.growth_traction().row(component));
       result.dissipated += tangential.jump_work();
     }
     result.work_per_cycle = result.normal_work + result.tangential_work;
     result.power = result.work_per_cycle / path.period();
-    const double square = path.drift != 0
-                              ? std::pow(path.drift / path.period(), 2)
-                              : std::pow(path.range * path.angular_frequency, 2) / 2;
-    if (path.range > 0)
-      result.damping_constant = result.tangential_work / path.period() / square;
+    const double square = path.drift != 0 ? std::pow(path.drift / path.period(), 2)
+                                          : std::pow(path.range * path.angular_frequency, 2) / 2;
+    if (path.range > 0) result.damping_constant = result.tangential_work / path.period() / square;
     return result;
   }
 
@@ -705,15 +712,15 @@ class SteadyState {
     if (path.amplitude > 0)
       result.normal_loss_stiffness = normal.work() / (pi * path.amplitude * path.amplitude);
     for (int n = 0; n <= path.steps; ++n) {
-      const ContactSet& set = normal.sets()[static_cast<std::size_t>(n > 0 ? n - 1
-                                                                           : path.steps - 1)];
-      result.samples.push_back({.time = path.period() * n / path.steps,
-                                .indentation = normal.indentation() + path.dip(n),
-                                .tangential = 0,
-                                .normal_force = normal.force_at(n),
-                                .tangential_force = 0,
-                                .contact_area = static_cast<double>(set.count()) *
-                                                surface_.grid.cell_area()});
+      const ContactSet& set =
+          normal.sets()[static_cast<std::size_t>(n > 0 ? n - 1 : path.steps - 1)];
+      result.samples.push_back(
+          {.time = path.period() * n / path.steps,
+           .indentation = normal.indentation() + path.dip(n),
+           .tangential = 0,
+           .normal_force = normal.force_at(n),
+           .tangential_force = 0,
+           .contact_area = static_cast<double>(set.count()) * surface_.grid.cell_area()});
     }
     const auto [least, most] =
         std::ranges::minmax(result.samples, {}, &ViscoelasticSample::contact_area);
@@ -769,8 +776,7 @@ ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
   for (std::size_t i = 0; i < time.size(); ++i) {
     require(std::isfinite(time[i]) && (i == 0 || time[i] > time[i - 1]), "time", time[i],
             "s must be finite and later than the sample before");
-    require(std::isfinite(path.values[i]), name_of(path.control), path.values[i],
-            "must be finite");
+    require(std::isfinite(path.values[i]), name_of(path.control), path.values[i], "must be finite");
   }
   const MaxwellSpring spring(relaxation);
   const NormalSteps steps(surface, body, spring, options);
@@ -780,8 +786,8 @@ ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
   for (std::size_t i = 0; i < time.size(); ++i) {
     const double duration = i > 0 ? time[i] - time[i - 1] : 0;
     Field guess = i > 0 ? result.last.contact_pressure : Field();
-    result.last = steps.advance(history, spring.stretching(duration),
-                                {path.control, path.values[i]}, &guess);
+    result.last =
+        steps.advance(history, spring.stretching(duration), {path.control, path.values[i]}, &guess);
     if (result.last.termination == Termination::interrupted)
       throw Interrupted("viscoelastic: interrupted");
     result.converged = result.converged && result.last.converged();
@@ -817,8 +823,7 @@ std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const 
                   "must be finite");
         else
           require(std::isfinite(one.tangential_amplitude) && std::isfinite(one.phase),
-                  "tangential_amplitude", one.tangential_amplitude,
-                  "and the phase must be finite");
+                  "tangential_amplitude", one.tangential_amplitude, "and the phase must be finite");
       },
       motion);
   for (const double frequency : angular_frequencies)
@@ -839,8 +844,7 @@ std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const 
     fine.cycles += coarse.cycles;
     fine.termination = std::max(fine.termination, coarse.termination);
     fine.step_error = std::abs(fine.work_per_cycle - coarse.work_per_cycle);
-    fine.work_per_cycle_error =
-        fine.step_error + std::abs(fine.dissipated - fine.work_per_cycle);
+    fine.work_per_cycle_error = fine.step_error + std::abs(fine.dissipated - fine.work_per_cycle);
     sweep.push_back(std::move(fine));
   }
   return sweep;

@@ -67,7 +67,7 @@ struct ViscoelasticCycleOptions {
   int steps = 64;  ///< straight steps per cycle, even, >= 16
   /// Largest distance of the displacements from their periodic state, over the larger of the
   /// amplitudes of the motion (the normal one for normal displacements). 1e-10 to 1e-1.
-  double tolerance = 1e-5;
+  double tolerance = 1e-4;
   int max_cycles = 200;         ///< limit for each direction, >= 2
   Hold hold = Hold::automatic;  ///< the mean value that the oscillation keeps
   NormalContactOptions contact = {};
@@ -141,13 +141,12 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCycle>) {
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::work_per_cycle_error, quantity::work_per_cycle_error);
   visit(&S::normal_work, Quantity{"normal_work", energy, "work of the normal force in a cycle"});
-  visit(&S::tangential_work,
-        Quantity{"tangential_work", energy,
-                 "energy dissipated in a cycle by the tangential motion"});
+  visit(&S::tangential_work, Quantity{"tangential_work", energy,
+                                      "energy dissipated in a cycle by the tangential motion"});
   visit(&S::jump_work, Quantity{"jump_work", energy,
                                 "energy that cells release at once when they leave the contact"});
-  visit(&S::dissipated, Quantity{"dissipated", energy,
-                                 "energy dissipated in a cycle, as a sum over the branches"});
+  visit(&S::dissipated,
+        Quantity{"dissipated", energy, "energy dissipated in a cycle, as a sum over the branches"});
   visit(&S::step_error,
         Quantity{"step_error", energy, "change of the loss since half as many steps"});
   visit(&S::power, quantity::power);
