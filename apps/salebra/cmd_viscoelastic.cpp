@@ -7,8 +7,10 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/damping/viscoelastic_damping.hpp>  // analysis/ has no problem for it
+#include <salebra/damping/viscoelastic_cycle.hpp>  // analysis/ has no problem for these two
+#include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/study/body_file.hpp>
 
 #include "assumption_options.hpp"
 #include "damping/phase_quadrature.hpp"
@@ -25,9 +27,11 @@ struct ViscoelasticArguments {
   IndenterOptions indenter;
   MaterialOptions material;
   MotionOptions motion;
-  std::optional<double> indentation, force;
-  std::string prony;
-  int steps = 512, springs = 200;
+  OperatingPointOptions point;
+  std::string prony, body_file, hold = "auto";
+  SurfaceOptions surface;
+  std::optional<int> steps, springs;
+  std::optional<double> tolerance;
   AssumptionOptions assumptions;
 };
 
@@ -63,7 +67,9 @@ std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
   for (const Oscillation& motion : motions)
     losses.push_back(viscoelastic_loss(
         law, prony, motion, indentation,
-        {.steps = arguments.steps, .springs = arguments.springs, .on_progress = [&](auto report) {
+        {.steps = arguments.steps.value_or(512),
+         .springs = arguments.springs.value_or(200),
+         .on_progress = [&](auto report) {
            report.fraction = (double(losses.size()) + report.fraction) / double(motions.size());
            return progress(report);
          }}));
@@ -77,10 +83,100 @@ std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
   return losses;
 }
 
+// Computes the steady cycles of motions that differ at most in their frequency, or of each motion.
+std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
+                                         const ViscoelasticBody& viscoelastic,
+                                         const Surface& surface, const OperatingPoint& point,
+                                         Session& session) {
+  require(!viscoelastic.relaxation.terms.empty(), "--body", arguments.body_file,
+          "does not relax; give it [[relaxation]] tables, or use `salebra oscillate`");
+  ViscoelasticCycleOptions options;
+  options.hold = *parse_enum<Hold>(arguments.hold);
+  options.on_progress = session.progress();
+  if (arguments.steps) options.steps = *arguments.steps;
+  if (arguments.tolerance) options.tolerance = *arguments.tolerance;
+  if (!surface.periodic)
+    session.warn("the surface is continued periodically, because it is not stated to repeat");
+  const std::vector<Oscillation> motions = arguments.motion.motions();
+  const std::string varied = arguments.motion.varied().first;
+  std::vector<ViscoelasticCycle> cycles;
+  if (varied == "frequency" || varied == "angular_frequency") {
+    cycles =
+        viscoelastic_sweep(surface, viscoelastic.body, viscoelastic.relaxation, motions.front(),
+                           point, arguments.motion.frequency.angular(), options);
+  } else {
+    for (const Oscillation& motion : motions)
+      cycles.push_back(viscoelastic_cycle(surface, viscoelastic.body, viscoelastic.relaxation,
+                                          motion, point, options));
+  }
+  if (const auto lost = std::ranges::count_if(
+          cycles, [](const ViscoelasticCycle& one) { return !one.converged(); });
+      lost > 0)
+    throw NotConverged(
+        fmt::format("viscoelastic: {} of {} steady states were not found; allow a larger "
+                    "--tolerance, or leave out relaxation times beyond 1e3 periods",
+                    lost, cycles.size()));
+  return cycles;
+}
+
+void run_on_surface(const ViscoelasticArguments& arguments, Session& session) {
+  for (const auto& [given, option] :
+       {std::pair(!arguments.indenter.law.empty(), "--law"),
+        {!arguments.prony.empty(), "--prony"},
+        {arguments.material.given(),
+         "--young, --poisson, --contact-modulus or --tangential-modulus"},
+        {arguments.springs.has_value(), "--springs"},
+        {arguments.assumptions.friction_coefficient.has_value(), "--friction-coefficient"},
+        {arguments.assumptions.hardness.has_value(), "--hardness"},
+        {arguments.assumptions.density.has_value(), "--density"},
+        {arguments.assumptions.excursion.has_value(), "--excursion"}})
+    require(!given, option, "", "applies to an indenter; leave it out with SURFACE");
+  arguments.indenter.require_only({}, "SURFACE");
+  std::vector<std::string> missing = arguments.motion.missing();
+  if (arguments.body_file.empty()) missing.insert(missing.begin(), "--body");
+  if (!arguments.motion.frequency.given())
+    missing.emplace_back("--frequency (or --angular-frequency)");
+  if (arguments.point.count() == 0)
+    missing.emplace_back("--pressure (or --normal-force, --mean-gap, --indentation)");
+  require_options(missing, "the loss of a rough contact on a viscoelastic body");
+  require_that(arguments.point.count() == 1,
+               "--pressure, --normal-force, --mean-gap, --indentation",
+               "several are given; give one of them");
+  session.require_one_process("SURFACE");
+  const ViscoelasticBody body = read_viscoelastic_body(arguments.body_file);
+  const Surface surface = arguments.surface.read(session);
+  const auto pressure = arguments.point.nominal_pressure(surface.grid);
+  const OperatingPoint point = pressure ? at_pressure(*pressure)
+                               : arguments.point.mean_gap
+                                   ? at_mean_gap(*arguments.point.mean_gap)
+                                   : at_indentation(*arguments.point.indentation);
+  const std::vector<ViscoelasticCycle> cycles = cycles_of(arguments, body, surface, point, session);
+  ResultTable table = table_of("motions", cycles);
+  const auto [quantity, values] = arguments.motion.varied();
+  if (!values.empty() && quantity != "angular_frequency" && quantity != "frequency")
+    table.columns.insert(table.columns.begin(), {quantity, values});
+  Json answer;
+  answer["datum"] = name_of(body.body.datum());
+  write_tables(session, "viscoelastic", answer, {table});
+  for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
+  if (session.has_plot())
+    session.plot(
+        figures::figure_of(table.columns.front().name, table.columns.front().values, cycles));
+  session.answer(answer);
+}
+
 void run(const ViscoelasticArguments& arguments, Session& session) {
   require_tables(session, {"motions"});
+  if (arguments.surface.given()) return run_on_surface(arguments, session);
+  for (const auto& [given, option] : {std::pair(!arguments.body_file.empty(), "--body"),
+                                      {arguments.point.pressure.has_value(), "--pressure"},
+                                      {arguments.point.mean_gap.has_value(), "--mean-gap"},
+                                      {arguments.tolerance.has_value(), "--tolerance"},
+                                      {arguments.hold != "auto", "--hold"}})
+    require(!given, option, "", "applies to a rough surface; give SURFACE too");
   std::vector<std::string> missing = arguments.motion.missing();
   if (arguments.prony.empty()) missing.insert(missing.begin(), "--prony");
+  if (arguments.indenter.law.empty()) missing.insert(missing.begin(), "--law (or SURFACE)");
   if (arguments.motion.mode != "drag" && !arguments.motion.frequency.given())
     missing.emplace_back("--frequency (or --angular-frequency)");
   require_options(missing, "the loss on a viscoelastic body");
@@ -93,11 +189,12 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const auto profile = arguments.indenter.indenter();
   const auto any_law = law_of(IndenterContact{profile, material, {}}, session.context());
   const auto& law = static_cast<const IndenterLaw&>(*any_law);
-  require_one(arguments.indentation.has_value(), "--indentation", arguments.force.has_value(),
-              "--normal-force");
-  if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
-  const double indentation =
-      arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
+  require_one(arguments.point.indentation.has_value(), "--indentation",
+              arguments.point.force.has_value(), "--normal-force");
+  if (arguments.point.indentation) require_positive(*arguments.point.indentation, "--indentation");
+  const double indentation = arguments.point.indentation
+                                 ? *arguments.point.indentation
+                                 : law.indentation_of(*arguments.point.force);
   session.warn(warnings_of_profile(*profile, law.contact_radius(indentation)));
   const ContactParameters known = arguments.assumptions.parameters(arguments.material);
   const std::vector<ViscoelasticLoss> losses =
@@ -140,21 +237,17 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
 void add_viscoelastic_command(Program& program) {
   auto arguments = std::make_shared<ViscoelasticArguments>();
   Command& command = program.add_command(
-      "viscoelastic", "losses of an indenter on rubber or a polymer",
+      "viscoelastic", "losses of an indenter or a rough surface on rubber or a polymer",
       {"salebra viscoelastic --law sphere --radius 5mm --indentation 20um --contact-modulus "
        "4MPa --poisson 0.5 --prony 3MPa:20ms --mode equal-frequency --normal-amplitude 2um "
        "--tangential-amplitude 1um --phase 90deg --frequency 0.1Hz:1kHz:25 --plot losses.png",
-       "salebra viscoelastic --law cone --angle 10deg --normal-force 0.1 --young 3MPa "
-       "--poisson 0.5 --prony 2MPa:1ms,1MPa:50ms --normal-amplitude 1um --drag-velocity 10um/s "
-       "--frequency 10Hz:1kHz:9 -o losses.csv"},
+       "salebra viscoelastic rough.h5 --body rubber.toml --pressure 50kPa --mode equal-frequency "
+       "--normal-amplitude 100nm --tangential-amplitude 50nm --phase 90deg --frequency 1Hz:1kHz:7"},
       [arguments](Session& session) { run(*arguments, session); },
       "losses and complex modulus over the quantity that varies", OutputCheck::any_name);
+  arguments->surface.add_to(command, false);
   arguments->indenter.add_to(command);
-  command.under("Position");
-  add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
-               "mean indentation from first touch");
-  add_quantity(command, "--normal-force", arguments->force, Dimension::force,
-               "normal force of the relaxed contact at rest");
+  arguments->point.add_to(command);
   arguments->material.add_to(command);
   command.under("Material");
   command
@@ -162,13 +255,26 @@ void add_viscoelastic_command(Program& program) {
                   "terms G1:T1,G2:T2,... of the shear relaxation modulus, such as 3MPa:20ms, added "
                   "to the relaxed modulus of the other options")
       ->type_name("LIST");
+  command
+      .add_option("--body", arguments->body_file,
+                  "file of the body under SURFACE, with [[relaxation]] tables of its weights "
+                  "G_i/G_inf and times")
+      ->file(FileUse::input);
   command.under("Options");
   arguments->motion.add_to(command);
-  add_steps(command, arguments->steps, "straight steps per cycle; default 512")->range(16, 1000000);
+  add_steps(command, arguments->steps,
+            "straight steps per cycle; default 512, with SURFACE 64, even")
+      ->range(16, 1000000);
   command
       .add_option("--springs", arguments->springs,
                   "number of springs in the ring that opens and closes; default 200")
       ->range(8, 1000000);
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "mean value that the oscillation of SURFACE keeps; auto: the mean force if a "
+                   "force is given and the contact would lift off, else the indentation");
+  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
+               "largest distance from the periodic state with SURFACE, over the amplitude; default "
+               "1e-4");
   arguments->assumptions.add_to(command);
 }
 

@@ -133,10 +133,12 @@ constexpr std::array descriptions{
         "normal force."},
     CommandHelp{
         "viscoelastic", damping,
-        "--law --radius --indentation --prony --normal-amplitude --frequency",
+        "SURFACE --law --radius --indentation --prony --body --normal-amplitude --frequency",
         "Computes the losses of an axisymmetric indenter that oscillates on a viscoelastic body "
         "without slip: those of the material under the normal and under the tangential motion, and "
-        "that of relaxation damping, over the frequency or another quantity."},
+        "that of relaxation damping, over the frequency or another quantity. Of a rough surface "
+        "it computes the losses of both motions by steps of boundary elements, on any linear body "
+        "that relaxes as a whole."},
     CommandHelp{"oscillate", damping,
                 "--shape --surface --pressure --normal-amplitude --phase --friction",
                 "Simulates an oscillating contact in three dimensions: moves it through its cycle "
@@ -172,7 +174,7 @@ constexpr std::string_view chart =
     "  a sliding contact        friction, stick-slip             sliding\n"
     "  an oscillator            its decay under vibration        damping\n"
     "  a joint                  losses in partial slip           joint\n"
-    "  rubber or a polymer      losses under an indenter         viscoelastic\n"
+    "  rubber or a polymer      losses under a contact           viscoelastic\n"
     "  doubts about a model     all models on your surface       compare\n\n"
     "First steps:\n"
     "  salebra verify                        check this installation\n"

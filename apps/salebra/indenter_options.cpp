@@ -22,7 +22,6 @@ void IndenterOptions::add_to(Command& app, const std::vector<std::string>& other
              others.empty()
                  ? "shape of the indenter"
                  : "force law F(indentation): a formula, or the law of an indenter of this shape")
-      ->required(others.empty())
       ->group(group);
   add_quantity(app, "--angle", angle, Dimension::angle,
                "cone: angle between its flank and the plane")

@@ -82,7 +82,8 @@ struct CellRecord {
 // response C of the relaxed body, branch k loses (g_k/τ_k) ∫ y_k·C⁻¹y_k dt. The tractions s_k =
 // C⁻¹y_k and s_0 = C⁻¹u are 0 in cells that never touch; in the others they follow from the traction
 // τ = s_0 + Σ g_k s_k, with s_k' = s_0' − s_k/τ_k, and from the condition that they are periodic,
-// apart from the growth of s_0.
+// apart from the growth of s_0. A free cell recovers within a step on a curve; its straight
+// displacement leaves it with tractions inside the step, whose work a free surface loses as well.
 class BranchLoss {
  public:
   BranchLoss(const MaxwellSpring& spring, const PronySeries& series) : spring_(spring) {
@@ -122,6 +123,13 @@ class BranchLoss {
                   (part.stay[k] * s[k + 1] * y[k] + part.mixed[k] * (s[k + 1] * du + ds * y[k]) +
                    part.move[k] * ds * du);
           y[k] = part.step.decay[k] * y[k] + part.step.gain[k] * du;
+        }
+        if (record.traction[n].data()[cell] == 0 && record.traction[n + 1].data()[cell] == 0) {
+          double mean = s[0] + ds / 2;
+          for (Index k = 0; k < terms; ++k)
+            mean += spring_.ratios()[k] *
+                    (part.step.mean_decay()[k] * s[k + 1] + part.step.mean_gain[k] * ds);
+          lost -= mean * du;
         }
         s = next;
       }
@@ -351,7 +359,7 @@ class NormalCycles {
     for (Index k = 0; k < spring_.terms(); ++k)
       record_.branches.push_back(values_at(history.branch(k), cells));
     record_.displacement.push_back(values_at(history.displacement(), cells));
-    record_.traction.push_back(Field());  // not used
+    record_.traction.emplace_back();  // that at the end, because the cycle repeats
     force_.clear();
     sets_.clear();
     termination_ = Termination::converged;
@@ -368,6 +376,7 @@ class NormalCycles {
       record_.traction.push_back(values_at(state.contact_pressure, cells));
       guess = state.contact_pressure;
     }
+    record_.traction.front() = record_.traction.back();
     last_pressure_ = guess;
     recorded_ = cells;
     Field end(start.rows(), start.cols());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figure of losses on a viscoelastic body.
+// Figures of losses on a viscoelastic body, of an indenter and of a rough surface.
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
 
@@ -43,6 +44,42 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       curve("storage modulus G′", "storage_modulus",
             [](const auto& loss) { return loss.storage_modulus; }),
       curve("loss modulus G″", "loss_modulus", [](const auto& loss) { return loss.loss_modulus; })};
+  return figure;
+}
+
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<ViscoelasticCycle>& cycles) {
+  const Axis x = axis_of(quantity, spans_decades(values));
+  const auto curve = [&](const char* name, const char* of, double ViscoelasticCycle::*value) {
+    Curve out{.name = name, .quantity = of, .x = values};
+    for (const ViscoelasticCycle& cycle : cycles) out.y.push_back(cycle.*value);
+    return out;
+  };
+  using C = ViscoelasticCycle;
+  Figure figure{.kind = "viscoelastic_cycle",
+                .caption =
+                    "Energy lost in a cycle of a rough contact on a viscoelastic body by the "
+                    "two directions of motion, with the part that cells release when they "
+                    "leave, and stiffnesses in and out of phase.",
+                .columns = 2};
+  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+                           .x = x,
+                           .y = axis_of("work_per_cycle", true, "loss W"),
+                           .legend = Legend::top_left});
+  figure.panels.back().curves = {curve("normal", "normal_work", &C::normal_work),
+                                 curve("tangential", "tangential_work", &C::tangential_work),
+                                 curve("released by leaving cells", "jump_work", &C::jump_work)};
+  figure.panels.back().curves.back().style = Style::dashed;
+  figure.panels.push_back({.title = "Dynamic stiffness",
+                           .x = x,
+                           .y = {.label = "stiffness", .unit = "N/m", .logarithmic = true},
+                           .legend = Legend::top_left});
+  figure.panels.back().curves = {
+      curve("normal, storage", "normal_storage_stiffness", &C::normal_storage_stiffness),
+      curve("normal, loss", "normal_loss_stiffness", &C::normal_loss_stiffness),
+      curve("tangential, storage", "tangential_storage_stiffness",
+            &C::tangential_storage_stiffness),
+      curve("tangential, loss", "tangential_loss_stiffness", &C::tangential_loss_stiffness)};
   return figure;
 }
 

@@ -18,6 +18,7 @@
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/non_gaussian.hpp>
@@ -52,10 +53,10 @@ const Column* entry_of(std::string_view name) {
       SampledMotion, EqualFrequency, Drag, DampingResult, CommonPeriod, ContactParameters,
       MaxMotion, Assumption, Loss, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint,
       RegimePoint, Slider, SliderMotion, SliderStability, SliderThresholds, OscillatorDecay,
-      FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping,
-      Anisotropy, NonGaussianSurface, Conductances, ContactDistributions, FlowFactors,
-      AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay, TwinDraw, ProfileParameters,
-      GaussianFilters>(name);
+      FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss,
+      ViscoelasticCycle, SurfaceDamping, Anisotropy, NonGaussianSurface, Conductances,
+      ContactDistributions, FlowFactors, AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay,
+      TwinDraw, ProfileParameters, GaussianFilters>(name);
 }
 
 }  // namespace

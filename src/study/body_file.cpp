@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a linear body from a TOML file.
+#include <cmath>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/study/body_file.hpp>
 #include <utility>
@@ -55,7 +56,25 @@ Body read_anisotropic(TomlTable table) {
   return table.located([&] { return Body::transversely_isotropic(stiffness); });
 }
 
-Body read_table(TomlTable& root) {
+PronySeries read_relaxation(std::vector<TomlTable> tables) {
+  PronySeries series{.relaxed_modulus = 1, .terms = {}};
+  for (TomlTable& table : tables) {
+    const double weight = table.required_quantity("weight", dimensionless),
+                 duration = table.required_quantity("time", Dimension::time);
+    for (const auto& [key, value] : {std::pair("weight", weight), {"time", duration}})
+      table.check(std::isfinite(value) && value > 0, key, "must be > 0; leave the term out");
+    table.require_no_other_keys();
+    series.terms.push_back({weight, duration});
+  }
+  return series;
+}
+
+TomlTable parse(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = 4 << 20;
+  return TomlTable::parse(detail::InputFile(file).content(most), file.string());
+}
+
+Body read_elastic_keys(TomlTable& root) {
   const auto chosen = root.choice("datum", names_of<Datum>());
   const Datum datum = chosen ? EnumNames<Datum>::values[*chosen].first : Datum::mean_plane;
   const bool layered = root.has("layer") || root.has("base");
@@ -73,19 +92,31 @@ Body read_table(TomlTable& root) {
   return root.located([&] { return body.measured_from(datum); });
 }
 
+Body read_elastic_body(TomlTable& root) {
+  root.check(!root.has("relaxation"), "relaxation",
+             "an elastic body is needed here, and this one relaxes; leave [[relaxation]] out, or "
+             "compute a viscoelastic contact");
+  return read_elastic_keys(root);
+}
+
 }  // namespace
 
 Body read_body(const std::filesystem::path& file) {
-  constexpr std::uint64_t most = 4 << 20;
-  TomlTable root = TomlTable::parse(detail::InputFile(file).content(most), file.string());
-  return read_table(root);
+  TomlTable root = parse(file);
+  return read_elastic_body(root);
 }
 
 Body detail::read_body_table(TomlTable& table, const std::filesystem::path& folder) {
   const auto file = table.text("file");
-  if (!file) return read_table(table);
+  if (!file) return read_elastic_body(table);
   table.require_no_other_keys();
   return table.located([&] { return read_body(folder / *file); });
+}
+
+ViscoelasticBody read_viscoelastic_body(const std::filesystem::path& file) {
+  TomlTable root = parse(file);
+  PronySeries relaxation = read_relaxation(root.tables("relaxation"));
+  return {read_elastic_keys(root), std::move(relaxation)};
 }
 
 }  // namespace salebra

@@ -78,7 +78,7 @@ TEST_CASE("A sphere loses what springs with memory lose", "[viscoelastic_cycle]"
 TEST_CASE("The loss of a cycle is the dissipation of its branches and jumps, at second order",
           "[viscoelastic_cycle]") {
   const RoughContact contact;
-  for (const double product : {0.1, 3.0}) {
+  for (const double product : {0.01, 0.1, 3.0}) {
     const auto imbalance = [&](int steps) {
       const ViscoelasticCycle found =
           viscoelastic_cycle(contact.surface, rubber, standard_solid, contact.motion(product),
@@ -90,8 +90,9 @@ TEST_CASE("The loss of a cycle is the dissipation of its branches and jumps, at 
     };
     const double coarse = imbalance(16), fine = imbalance(48);
     CAPTURE(product, coarse, fine);
-    // Measured: 1.6e-2 to 2.4e-3 on this small surface, whose cells enter one at a time.
-    CHECK(fine < 5e-3);
+    // Where a branch relaxes within a step, the trapezoidal rule of ∮F dδ is off by (2π/steps)²/2 =
+    // 0.86 %; elsewhere it is better.
+    CHECK(fine < 0.01);
     CHECK(fine < 0.5 * coarse);
   }
 }

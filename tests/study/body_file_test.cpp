@@ -20,6 +20,10 @@ class BodyFile {
     std::ofstream(path_) << text;
     return read_body(path_);
   }
+  ViscoelasticBody read_viscoelastic(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return read_viscoelastic_body(path_);
+  }
 
  private:
   std::filesystem::path path_ = std::filesystem::temp_directory_path() /
@@ -73,4 +77,26 @@ TEST_CASE("A file of a body names each mistake with its line", "[body_file]") {
                     Contains("datum") && Contains("rigid base"));
   CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 10\nc33 = 10\nc13 = 9\nc44 = 3\nc66 = 3\n"),
                     Contains(":4:") && Contains("c13"));
+}
+
+TEST_CASE("A file of a body may have the terms of a Prony series", "[body_file]") {
+  const BodyFile file;
+  const std::string terms =
+      "[[relaxation]]\nweight = 0.8\ntime = \"2ms\"\n[[relaxation]]\nweight = 3\ntime = 0.5\n";
+  const ViscoelasticBody found = file.read_viscoelastic(film + terms);
+  CHECK(found.body.compliance(3e5).normal == file.read(film).compliance(3e5).normal);
+  REQUIRE(found.relaxation.terms.size() == 2);
+  CHECK(found.relaxation.relaxed_modulus == 1);
+  CHECK(found.relaxation.terms[0].modulus == 0.8);
+  CHECK(found.relaxation.terms[0].relaxation_time == Approx(2e-3));
+  CHECK(found.relaxation.terms[1].relaxation_time == 0.5);
+  CHECK(file.read_viscoelastic(film).relaxation.terms.empty());
+  // Where the body must be elastic, the file is refused instead of read without its terms.
+  CHECK_THROWS_WITH(file.read(film + terms), Catch::Contains("relaxation: an elastic body"));
+  CHECK_THROWS_WITH(file.read_viscoelastic(film + "[[relaxation]]\nweight = 0\ntime = 1\n"),
+                    Catch::Contains(":6: relaxation.weight: must be > 0"));
+  CHECK_THROWS_AS(file.read_viscoelastic(film + "[[relaxation]]\nweight = 1\n"), InvalidInput);
+  CHECK_THROWS_AS(
+      file.read_viscoelastic(film + "[[relaxation]]\nweight = 1\ntime = 1\ncolor = 1\n"),
+      InvalidInput);
 }

@@ -107,7 +107,9 @@ struct ViscoelasticCycle {
   /// unrelaxed response, J. Some of the energy that they keep is lost while the free surface
   /// recovers, so that this is no split into material and relaxation damping.
   double jump_work = 0;
-  double dissipated = 0;  ///< the loss as the sum of the branches' dissipation and jump_work, J
+  /// The loss computed independently, J: dissipation of the branches, plus jump_work, plus the work
+  /// of tractions inside the steps in cells that recover freely.
+  double dissipated = 0;
   double step_error = 0;  ///< change of the loss since half as many steps, J
   double power = 0;       ///< work_per_cycle over the period, W
   /// Mean power of tangential_work over ⟨ẋ²⟩, N s/m; NaN without tangential motion.

@@ -51,6 +51,7 @@ struct Surface;
 struct SurfacePicture;
 struct SurfaceTwin;
 struct TrajectoryDamping;
+struct ViscoelasticCycle;
 struct ViscoelasticDamping;
 struct ViscoelasticIndentation;
 struct ViscoelasticLoss;
@@ -203,6 +204,11 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
 /// `values` has one for each loss.
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses);
+
+/// The losses of a rough contact on a viscoelastic body and its dynamic stiffnesses, over the quantity
+/// of which `values` has one for each cycle.
+Figure figure_of(std::string_view quantity, const std::vector<double>& values,
+                 const std::vector<ViscoelasticCycle>& cycles);
 
 /// Gap with the fitted law, area, stiffness, damping and stiffness ratio of all models over the
 /// pressure, with 95 % bands and the damping constants of the study's table with their errors; local
