@@ -162,7 +162,9 @@ void run_on_surface(const ViscoelasticArguments& arguments, Session& session) {
   if (session.has_plot())
     session.plot(
         figures::figure_of(table.columns.front().name, table.columns.front().values, cycles));
-  session.answer(answer);
+  // The assumptions are checked by springs, which rough contacts with memory do not have.
+  AssumptionReport assumptions{.cases = std::vector<Assumptions>(cycles.size()), .list = true};
+  assumptions.answer(session, answer);
 }
 
 void run(const ViscoelasticArguments& arguments, Session& session) {
