@@ -45,7 +45,7 @@ _COMMON = (
     "boundary_element_contact_sets", "fit_exponential", "test_exponential", "window_sensitivity",
     "surface_damping", "relaxation_damping", "damping_curve", "simulate_cycle", "simulate_frictional_cycle", "simulate_coupled_cycle",
     "read_study_configuration", "parse_study_configuration", "run_study", "run_ensembles", "write_ensembles", "is_result_of",
-    "can_report", "write_report", "citations", "set_threads", "threads", "ProgressReport", "version",
+    "can_report", "write_report", "write_report_pdf", "citations", "set_threads", "threads", "ProgressReport", "version",
     "Error", "InvalidInput", "IoError", "NotConverged", "Interrupted", "MissingFile", "ConvergenceWarning",
 )  # fmt: skip
 

@@ -8,5 +8,6 @@ from ._core import (
     read_surface as read_surface,
     write_force_curve as write_force_curve,
     write_report as write_report,
+    write_report_pdf as write_report_pdf,
     write_surface as write_surface,
 )

@@ -137,6 +137,31 @@ InvalidInput
 IoError
     If :func:`can_report` is false, or if the operating system refuses.
 )");
+  m.def(
+      "write_report_pdf",
+      [](const std::filesystem::path& results, const std::filesystem::path& pdf,
+         const std::string& title, const std::vector<std::filesystem::path>& direct,
+         bool overwrite) {
+        unlocked([&] { write_report_pdf(results, pdf, {{overwrite}, title, direct}); });
+      },
+      nb::arg("results"), nb::arg("pdf"), nb::kw_only(), nb::arg("title") = "",
+      nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,
+      R"(The page of :func:`write_report` as PDF, printed by headless Chromium, which must be installed.
+
+Parameters
+----------
+results, title, direct, overwrite
+    As for :func:`write_report`.
+pdf : str or os.PathLike
+    The file; it appears complete or not at all.
+
+Raises
+------
+InvalidInput
+    As :func:`write_report`, and where no Chromium or Chrome is installed.
+IoError
+    As :func:`write_report`, and if Chromium does not print the page within two minutes.
+)");
 }
 
 }  // namespace

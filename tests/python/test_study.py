@@ -208,6 +208,8 @@ def test_a_report_is_the_page_of_the_program(result: salebra.StudyResult, progra
     with pytest.raises(salebra.InvalidInput, match="page.html: exists"):
         salebra.write_report(results, tmp_path / "page.html")
     salebra.write_report(results, tmp_path / "page.html", overwrite=True)
+    with pytest.raises(salebra.InvalidInput, match="page.html: exists|chromium"):
+        salebra.write_report_pdf(results, tmp_path / "page.html")
     assert "A title of ours" not in (tmp_path / "page.html").read_text()
     (tmp_path / "text.h5").write_text("no results")
     with pytest.raises(salebra.InvalidInput, match="text.h5"):
