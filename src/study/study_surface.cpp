@@ -19,6 +19,7 @@
 #include <string>
 #include <utility>
 
+#include "case_run.hpp"
 #include "contact_models.hpp"
 #include "surface/plausibility.hpp"
 
