@@ -170,6 +170,15 @@ void archive(Archive& through, T& value) {
       if (there && !own) own.emplace();
     }
     if (own) archive(through, *own);
+  } else if constexpr (requires { own.reset(), own.has_value(); }) {
+    // An optional object without members, such as a linear body, is archived only where it is
+    // absent.
+    bool there = own.has_value();
+    archive(through, there);
+    if (there)
+      throw InvalidInput("copy", "a configuration with a body",
+                         "cannot be pickled or copied; make it again from its text");
+    if constexpr (Archive::reads) own.reset();
   } else if constexpr (requires { own.first, own.second; }) {
     archive(through, own.first);
     archive(through, own.second);
