@@ -35,6 +35,8 @@ Json damping_of_study(const StudyResult& result, const StudySolution& answer) {
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
   damping["hold"] = std::string(name_of(result.configuration.hold()));
+  if (const std::optional<Body>& body = result.configuration.body)
+    damping["datum"] = std::string(name_of(body->datum()));
   if (!std::isnan(answer.direction)) damping["direction"] = answer.direction;
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
@@ -284,13 +286,17 @@ std::string study_text(const StudyResult& result, const StudySolution& answer) {
   const bool flowed = std::ranges::any_of(
       result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
   std::string text = fmt::format(
-      "{} of {} x {} points, {} x {}, h_rms {}{}\n\n",
+      "{} of {} x {} points, {} x {}, h_rms {}{}{}\n\n",
       count == 1 ? "1 surface" : fmt::format("{} surfaces", count), result.grid.nx, result.grid.ny,
       format_quantity(result.grid.lx, Dimension::length, 3),
       format_quantity(result.grid.ly, Dimension::length, 3),
       format_quantity(result.mean([](const auto& r) { return r.heights.rms_height; }).mean,
                       Dimension::length, 3),
-      flowed ? ",\nas the first loading left it" : "");
+      flowed ? ",\nas the first loading left it" : "",
+      result.configuration.body
+          ? fmt::format(",\non a body, displacements from the {}",
+                        result.configuration.body->datum() == Datum::base ? "base" : "mean plane")
+          : "");
   if (result.configuration.adhesion)
     return text + adhesion_table(result) + "\n" + accuracy(result) + law_line(result) +
            transport_table(result, answer);

@@ -142,9 +142,10 @@ double modulus_of(const StudyConfiguration& configuration, double slope,
         {!conduction.conductivity.empty() || !conduction.resistivity.empty(), "conductance"},
         {!std::isnan(configuration.known.hardness), "a `hardness`"},
         {!configuration.stick, "tangential stiffness in proportion to K"}})
-    require(!given, "body", what,
-            "is computed for homogeneous half-spaces; leave it out, or give their elastic "
-            "constants");
+    require_that(!given, "body",
+                 fmt::format("given together with {}, known for homogeneous half-spaces only; "
+                             "leave one of them out",
+                             what));
   const Surface first =
       study_surface(configuration, detail::seeds_of(configuration).front(), {}, communicator);
   return pressure_scale(first, *configuration.body) / slope;

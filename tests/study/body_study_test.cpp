@@ -193,10 +193,11 @@ poisson = 0.4
   // What is known for half-spaces only is refused by name.
   StudyConfiguration other = study;
   other.models = {ContactModel::bem, ContactModel::gw_moments};
-  CHECK_THROWS_WITH(study_loads(other), Contains("body: the models of summits"));
+  CHECK_THROWS_WITH(study_loads(other),
+                    Contains("body: given together with the models of summits"));
   other = study;
   other.known.hardness = 1e9;
-  CHECK_THROWS_WITH(study_loads(other), Contains("body: a `hardness`"));
+  CHECK_THROWS_WITH(study_loads(other), Contains("body: given together with a `hardness`"));
   CHECK_THROWS_WITH(parse_study_configuration(text.replace(text.find("[material]\n"), 11,
                                                            "[material]\nyoung = \"1GPa\"\n"),
                                               "both.toml"),

@@ -28,7 +28,7 @@ struct KnownResponse {
 class DiscProblem {
  public:
   /// limits: one for each point, >= 0, Pa, may be infinite. targets: displacements v, m.
-  /// stiffness_scale: the modulus E, Pa, in the approximate compliance 2/(E q) at wave number q.
+  /// stiffness_scale: TangentialWorkspace::stiffness_scale().
   DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
               std::vector<double> targets, double stiffness_scale);
 

@@ -26,7 +26,9 @@ class TangentialWorkspace {
 
   const Grid2D& grid() const { return grid_; }
   const StickOptions& options() const { return options_; }
-  /// Modulus E, Pa, whose 2/(Eq) is the mean of the compliances along and across a wave.
+  /// Factor that makes the preconditioner's stencil the inverse of the compliance: of half-spaces,
+  /// whose stencil is for E = 1 Pa, the modulus E whose 2/(Eq) is the mean of the compliances along
+  /// and across a wave; 1 for other bodies, whose stencil is their own.
   double stiffness_scale() const;
   std::size_t components() const { return options_.hold_lateral ? 2 : 1; }
 
