@@ -68,4 +68,5 @@ from ._core import (
     threshold_angular_frequency as threshold_angular_frequency,
     trajectory_damping as trajectory_damping,
     viscoelastic_damping as viscoelastic_damping,
+    viscoelastic_sweep as viscoelastic_sweep,
 )

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of contacts on viscoelastic bodies.
 #include <nanobind/stl/complex.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "bindings.hpp"
 #include "interop/arrays.hpp"
+#include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/contact.hpp"
+#include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
+#include "interop/path.hpp"
 #include "interop/running.hpp"
+#include "interop/surface.hpp"
 
 namespace salebra::python {
 namespace {
@@ -128,10 +137,77 @@ springs : int
 )");
 }
 
+void bind_cycle(nb::module_& m) {
+  auto result = described_class<ViscoelasticCycle>(
+      m, "ViscoelasticCycle",
+      "Loss of a rough contact on a viscoelastic body in its steady state; columns are views.");
+  result_methods(result);
+  m.def(
+      "viscoelastic_sweep",
+      [](const BoundSurface& surface, const PressedArgument& material, const PronySeries& prony,
+         const std::variant<EqualFrequency, Drag>& motion, const Values& angular_frequencies,
+         std::optional<double> pressure, std::optional<double> indentation,
+         std::optional<double> force, const Choice<Hold>& hold, int steps, double tolerance,
+         const ProgressArgument& progress) {
+        cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
+        ViscoelasticCycleOptions options;
+        options.hold = hold.value("hold");
+        options.steps = steps;
+        options.tolerance = tolerance;
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return viscoelastic_sweep(surface.surface, material.pressed(), prony, oscillation(motion),
+                                    operating_point_of(pressure, {}, indentation, force),
+                                    angular_frequencies.values, options);
+        });
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("prony"), nb::arg("motion"),
+      nb::arg("angular_frequencies"), nb::kw_only(), nb::arg("pressure") = nb::none(),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(), nb::arg("hold") = "auto",
+      nb::arg("steps") = ViscoelasticCycleOptions().steps,
+      nb::arg("tolerance") = ViscoelasticCycleOptions().tolerance, nb::arg("progress") = false,
+      R"(Steady cycles of a rough contact on a viscoelastic body without slip, one for each frequency.
+
+Each straight step of the displacements is one elastic contact; Anderson's extrapolation of cycles finds the periodic state. The motion is
+along x.
+
+Parameters
+----------
+surface : Surface
+    Continued periodically.
+material : Material or Body
+    The relaxed response.
+prony : PronySeries
+    Only the ratios G_i/G∞ and τ_i are used. The series holds for the whole body.
+motion : EqualFrequency or Drag
+    Its own frequency is replaced.
+angular_frequencies : array_like
+    ω > 0, rad/s; each search starts from the state before.
+pressure, indentation, force : float, optional
+    One of them, Pa, m or N: the relaxed body at rest, about which the contact oscillates.
+hold : str
+    "auto", "indentation" or "force": the mean value that the oscillation keeps.
+steps : int
+    Straight steps in a cycle, even, >= 16; half as many give `step_error`.
+tolerance : float
+    Largest distance from the periodic state, over the amplitude.
+
+Returns
+-------
+list of ViscoelasticCycle
+
+Raises
+------
+InvalidInput
+    For a motion that reaches full contact from the mean plane, and where :func:`press` does.
+)");
+}
+
 }  // namespace
 
 void bind_viscoelastic(nb::module_& m) {
   bind_series(m);
+  bind_cycle(m);
   bind_indentation(m);
   bind_damping_of_period(m);
 }

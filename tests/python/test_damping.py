@@ -478,6 +478,38 @@ def test_losses_on_rubber_are_told_apart() -> None:
         salebra.PronySeries(1e6, [(1e6, 1.0), (-1e6, 1.0)])
 
 
+def test_rough_contacts_on_rubber_lose_what_their_branches_dissipate() -> None:
+    grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
+    spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=5e-6)
+    surface = salebra.random_phase(grid, spectrum, 3)
+    prony = salebra.PronySeries(1.0, [(3.0, 0.02)])
+    motion = salebra.EqualFrequency(normal_amplitude=1e-6, tangential_amplitude=1e-6, phase=1.5, angular_frequency=1.0)
+    rubber = salebra.Body.half_space(salebra.ElasticBody(3e6, 0.5))
+    slow, middle = salebra.viscoelastic_sweep(surface, rubber, prony, motion, [0.5, 50.0], pressure=1e4, steps=16)
+    assert slow.converged and middle.converged
+    # The loss of the material is largest near ωτ = 1; G(0)/G∞ is 4.
+    assert middle.normal_work > 10 * slow.normal_work > 0
+    assert middle.normal_storage_stiffness > slow.normal_storage_stiffness
+    assert middle.dissipated == pytest.approx(middle.work_per_cycle, abs=middle.work_per_cycle_error)
+    assert middle.samples.normal_force.max() > middle.mean_force
+    with pytest.raises(salebra.InvalidInput, match="steps"):
+        salebra.viscoelastic_sweep(surface, rubber, prony, motion, [1.0], pressure=1e4, steps=15)
+
+
+def test_a_body_has_its_loss_by_pressures_and_its_cycle_with_friction() -> None:
+    grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
+    spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=5e-6)
+    surface = salebra.random_phase(grid, spectrum, 3)
+    film = salebra.Body.layered([(5e-5, 1e9, 0.4)])
+    motion = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=1e-7, phase=1.5, angular_frequency=1e3)
+    loss = salebra.surface_damping(surface, film, motion, pressures=[5e6])
+    middle = salebra.press(surface, film, pressure=5e6).indentation
+    cycle = salebra.simulate_frictional_cycle(surface, film, motion, middle, friction_coefficient=1e3)
+    assert abs(cycle.work_per_cycle - loss.work_per_cycle[0]) < loss.work_per_cycle_error[0] + 0.05 * cycle.work_per_cycle
+    sticky = salebra.press_adhesive(surface, film, salebra.Adhesion(0.5, 1e-6), pressure=5e6, force_coarse=True)
+    assert sticky.contact_area_fraction >= salebra.press(surface, film, pressure=5e6).contact_area_fraction
+
+
 def test_motion_in_two_directions_loses_the_sum_of_both() -> None:
     law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), salebra.Material(1e9, poisson=0.3))
     along = salebra.sample(salebra.EqualFrequency(normal_amplitude=3e-7, tangential_amplitude=2e-7, phase=1.0), 1e-6, 400)
