@@ -127,7 +127,9 @@ void check_body(const ContactArguments& arguments) {
   const std::string& file = arguments.material.body_file;
   if (file.empty()) return;
   for (const auto& [given, option] :
-       {std::pair(arguments.model != "bem", "--model"),
+       {std::pair(arguments.material.given(),
+                  "--young, --poisson, --contact-modulus or --tangential-modulus"),
+        {arguments.model != "bem", "--model"},
         {arguments.boundary != "periodic", "--boundary"},
         {arguments.hardness.has_value(), "--hardness"},
         {arguments.conduction.given(), "--conductivity or --resistivity"}})

@@ -239,7 +239,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
 void add_viscoelastic_command(Program& program) {
   auto arguments = std::make_shared<ViscoelasticArguments>();
   Command& command = program.add_command(
-      "viscoelastic", "losses of an indenter or a rough surface on rubber or a polymer",
+      "viscoelastic", "losses of an indenter or a surface on rubber",
       {"salebra viscoelastic --law sphere --radius 5mm --indentation 20um --contact-modulus "
        "4MPa --poisson 0.5 --prony 3MPa:20ms --mode equal-frequency --normal-amplitude 2um "
        "--tangential-amplitude 1um --phase 90deg --frequency 0.1Hz:1kHz:25 --plot losses.png",

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rough contact of a viscoelastic body along a path, and its periodic state under an oscillation.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "base/numerics/dense_systems.hpp"
 #include "base/stop_check.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
 #include "contact/normal/anderson.hpp"
@@ -101,7 +101,7 @@ class BranchLoss {
     for (const Part& part : parts) period = (part.map * period).eval();
     Eigen::VectorXd drift = Eigen::VectorXd::Zero(terms + 1);
     const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(terms + 1, terms + 1) - period;
-    const Eigen::MatrixXd inverse = system.partialPivLu().inverse();
+    const Eigen::MatrixXd inverse = detail::pseudo_inverse(system);
     double lost = 0;
     const Index cells = record.displacement.front().size();
     Eigen::VectorXd s(terms + 1), next(terms + 1), y(terms);

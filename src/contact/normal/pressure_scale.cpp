@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The pressure scale of a surface on any body, from its spectrum.
 #include <cmath>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
