@@ -137,7 +137,7 @@ springs : int
 )");
 }
 
-void bind_cycle(nb::module_& m) {
+void bind_rough_cycles(nb::module_& m) {
   auto result = described_class<ViscoelasticCycle>(
       m, "ViscoelasticCycle",
       "Loss of a rough contact on a viscoelastic body in its steady state; columns are views.");
@@ -207,7 +207,7 @@ InvalidInput
 
 void bind_viscoelastic(nb::module_& m) {
   bind_series(m);
-  bind_cycle(m);
+  bind_rough_cycles(m);
   bind_indentation(m);
   bind_damping_of_period(m);
 }
