@@ -153,6 +153,7 @@ void require_bodies(const std::vector<double>& poisson, std::size_t bodies) {
 }  // namespace
 
 Material MaterialOptions::material() const {
+  body_of_file();  // refuses elastic constants beside it
   require(body_file.empty(), "--body", body_file,
           "is for contacts of a surface; give the elastic constants");
   if (!young.empty()) {

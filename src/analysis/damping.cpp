@@ -247,7 +247,12 @@ class SurfaceDamper {
                 .excursion = problem.parameters.excursion,
                 .on_progress = context.on_progress};
     const ForceSample load = about_.samples[solution.contact.load()];
-    about_.samples = {load};
+    // Slip of springs on other bodies than half-spaces needs to know how K_t/K changes.
+    if (body.half_space_material())
+      about_.samples = {load};
+    else
+      about_ = loads_with_neighbours(about_, {load.pressure});
+    load_ = place_of(about_, load.pressure);
   }
 
   /// Loss at an amplitude and an angular frequency ω. Without slip the product γω depends only on
@@ -318,7 +323,7 @@ class SurfaceDamper {
   }
 
   SurfaceDamping solved(const Drag& drag, const SurfaceDampingOptions& options) const {
-    return surface_damping(*solution_.contact.surface, body_, drag, about_, options)[0];
+    return surface_damping(*solution_.contact.surface, body_, drag, about_, options)[load_];
   }
 
   /// Returns the loss if it exceeds its error. Otherwise adds a warning and returns an unknown
@@ -338,7 +343,8 @@ class SurfaceDamper {
   const DamperProblem& problem_;
   const Body& body_;
   DamperSolution& solution_;
-  ForceCurve about_;  // the curve with only the load of the operating point
+  ForceCurve about_;      // the curve with the load of the operating point
+  std::size_t load_ = 0;  // its index
   SurfaceDampingOptions options_;
   double solved_amplitude_ = not_known;
   Loss solved_;  // loss without slip at ω = 1 rad/s and the amplitude solved_amplitude_

@@ -470,6 +470,13 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& bo
   const ForceSample stuck =
       stuck_at(high.force / area, surface, body, direction, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
+  // Springs need a K_t/K that is the same at all loads. Its exponent is taken from the law over a
+  // factor of two of the force.
+  const double half =
+      law.indentation_of(std::max(high.force / 2, law.force(law.lowest_indentation())));
+  const double spring_error = detail::spring_error(
+      body, std::log(law.stiffness_ratio(half) / law.stiffness_ratio(spring_depth)) /
+                std::log(law.force(half) / law.force(spring_depth)));
   // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
   const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
   contact.initial_pressure = &high.contact_pressure;
@@ -484,7 +491,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& bo
       loss.work_per_cycle = loss.slip_work =
           4 * loss.tangential_force * loss.tangential_amplitude - elastic;
       // The springs of the law are those of contacts on the given cells.
-      loss.work_error = elastic * std::abs(by_springs / elastic_displacement - 1);
+      loss.work_error = elastic * std::hypot(by_springs / elastic_displacement - 1, spring_error);
       loss.exponent = JointLoss::unknown;
       loss.regime = Regime::sliding;
       set_ratios(loss);
@@ -508,7 +515,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& bo
         damping_about(pressure, as_normal, surface, body, direction, on_progress);
     loss.work_per_cycle = found.work_per_cycle / 2;
     loss.work_error =
-        std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change);
+        std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change,
+                   spring_error * loss.work_per_cycle);
     if (!(loss.work_error < std::abs(loss.work_per_cycle)))
       loss.work_per_cycle = loss.work_error = JointLoss::unknown;
     loss.slip_work = loss.work_per_cycle;

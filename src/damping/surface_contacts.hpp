@@ -111,6 +111,10 @@ class StiffnessRatio {
     return value_ + distance * (slope_ + distance * bend_);
   }
   double middle() const { return value_; }
+  /// d ln ρ/d ln F at the middle point; NaN if ρ is known there alone.
+  double exponent() const {
+    return low_ < 0 || high_ > 0 ? slope_ / value_ : std::numeric_limits<double>::quiet_NaN();
+  }
   double lowest_force() const { return force_ * std::exp(low_); }
   StiffnessRatio scaled(double factor) const {
     StiffnessRatio other = *this;
@@ -135,6 +139,14 @@ class StiffnessRatio {
   double low_, high_, force_;
   double value_, slope_ = 0, bend_ = 0;
 };
+
+/// Relative error of a loss with slip from springs of a body that is not a half-space: |m| for K_t/K ∝
+/// F^m. Coulomb's law of the springs needs a K_t/K that is the same at all loads; where it is, as on
+/// half-spaces and graded bodies, the springs are right. On layers with m from −0.07 to −0.11 direct
+/// simulations of three motions differ by 2.6 to 4.4 % from the springs.
+inline double spring_error(const Body& body, double exponent) {
+  return body.half_space_material() ? 0 : std::abs(exponent);
+}
 
 /// G*/E* of half-spaces. Any other body has no such constant: 1, so that ρ is K_t/K itself.
 inline double modulus_ratio_of(const Body& body) {

@@ -90,6 +90,7 @@ class Load {
         options_(options),
         sample_(curve.samples[k]),
         ratio_(ratio_on(curve, k, modulus_ratio_of(body))),
+        spring_error_(detail::spring_error(body, ratio_.exponent())),
         amplitude_(detail::normal_amplitude(motion)),
         hold_(hold),
         wide_(options.amplitude == Amplitude::finite && detail::is_wide(sample_, amplitude_)) {
@@ -113,6 +114,7 @@ class Load {
 
   const std::vector<GridValue>& values() const { return values_; }
   double stiffness_ratio() const { return ratio_.middle(); }
+  double spring_error() const { return spring_error_; }
   double window() const { return half_; }
   int intervals() const { return intervals_; }
   double interval_error() const { return interval_error_; }
@@ -496,6 +498,7 @@ class Load {
   const SurfaceDampingOptions& options_;
   const ForceSample sample_;
   StiffnessRatio ratio_;
+  const double spring_error_;
   const double amplitude_;
   const Hold hold_;
   const bool wide_;
@@ -575,6 +578,9 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
     result.error = result.error_without_slip;
   else if (load.follows_slip())
     result.error = budget_of(described, load.interval_error_with_slip());
+  if (!no_slip)
+    result.error.stiffness_ratio =
+        std::hypot(result.error.stiffness_ratio, load.spring_error() * described.work);
   result.leaving_share = value.leaving_share;
   if (values.size() < 2) return refused_unless_nested(result);
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];

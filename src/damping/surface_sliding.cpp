@@ -277,8 +277,11 @@ std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
   const OnGrid own = run.on(surface, own_intervals, true, on_progress);
   OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
   // The error by the cells is of second order: a third of the change remains on the finer cells.
+  const double springs = detail::spring_error(body, ratio.exponent());
   const ArrayXd errors =
-      (fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16).sqrt();
+      ((fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16) +
+       (springs * fine.numbers).square())
+          .sqrt();
 
   SurfaceDampingOptions options{.hold = hold, .on_progress = on_progress};
   // The ratio K_t/K of this curve comes from contacts inside the oscillation.

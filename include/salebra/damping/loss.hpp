@@ -16,9 +16,11 @@ struct ErrorBudget {
   double cells = unknown;      ///< discretisation: change of the loss on cells of another size
   double noise = unknown;      ///< from cells and patches entering singly: 1.8 standard deviations
   double intervals = unknown;  ///< change of the loss with half as many intervals
-  double stiffness_ratio = unknown;  ///< change if K_t/((G*/E*)K) is linear in ln F
-  double seam = 0;                   ///< from continuing a scan periodically; 0: not estimated
-  double solver = unknown;           ///< from the tolerance of the contact solver
+  /// Change if K_t/((G*/E*)K) is linear in ln F. With slip on a body that is not a half-space also
+  /// |m| times the loss for K_t/K ∝ F^m, as springs slip by Coulomb's law only where m = 0.
+  double stiffness_ratio = unknown;
+  double seam = 0;          ///< from continuing a scan periodically; 0: not estimated
+  double solver = unknown;  ///< from the tolerance of the contact solver
   /// Change of the loss if the force law continues exponentially below the lowest solved load; 0
   /// if no part of the motion lies there.
   double first_touch = 0;
