@@ -21,6 +21,7 @@
 #include "joint_loop.hpp"
 #include "max_motion.hpp"
 #include "surface/refine.hpp"
+#include "surface_contacts.hpp"
 #include "sweep_breaks.hpp"
 #include "table_error.hpp"
 
