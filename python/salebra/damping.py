@@ -36,6 +36,7 @@ from ._core import (
     TangentialContact as TangentialContact,
     TrajectoryDamping as TrajectoryDamping,
     TwoFrequencies as TwoFrequencies,
+    ViscoelasticCycle as ViscoelasticCycle,
     ViscoelasticDamping as ViscoelasticDamping,
     asperity_damping as asperity_damping,
     boundary_element_contact_sets as boundary_element_contact_sets,
