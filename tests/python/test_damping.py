@@ -491,7 +491,7 @@ def test_rough_contacts_on_rubber_lose_what_their_branches_dissipate() -> None:
     assert middle.normal_work > 10 * slow.normal_work > 0
     assert middle.normal_storage_stiffness > slow.normal_storage_stiffness
     assert middle.dissipated == pytest.approx(middle.work_per_cycle, abs=middle.work_per_cycle_error)
-    assert middle.samples.normal_force.max() > middle.mean_force
+    assert middle.normal_force.max() > middle.mean_force
     with pytest.raises(salebra.InvalidInput, match="steps"):
         salebra.viscoelastic_sweep(surface, rubber, prony, motion, [1.0], pressure=1e4, steps=15)
 
