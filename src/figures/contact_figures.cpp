@@ -193,7 +193,8 @@ Figure figure_of(const Grid2D& grid, const NormalContactState& state) {
       (state.contact_pressure > 0)
           .select(state.contact_pressure, std::numeric_limits<double>::quiet_NaN());
   const std::string share =
-      fmt::format("contact area A/A_0 = {:.3g} %", 100 * state.contact_area_fraction);
+      fmt::format("contact area A/A_0 = {:.3g} % at {}", 100 * state.contact_area_fraction,
+                  format_quantity(state.mean_pressure, Dimension::pressure, 3));
   const std::string gap = "mean gap " + format_quantity(state.mean_gap, Dimension::length, 3);
   return {.kind = "contact",
           .caption =

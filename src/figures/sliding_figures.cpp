@@ -13,41 +13,59 @@ namespace salebra::figures {
 
 Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   Curve mean{.name = "computed", .quantity = "friction_coefficient"},
-      slow{.name = "slow limit, µ_0 + Γv/F"};
+      slow{.name = "slow sliding, at most µ"};
   slow.style = Style::dashed;
   if (points.size() <= 30) mean.style = Style::line_and_points;
-  Curve total{.name = "slip and springs that open", .quantity = "work_per_cycle"},
-      opening{.name = "springs that open", .quantity = "relaxation_work"};
+  Curve total{.name = "total", .quantity = "work_per_cycle"},
+      opening{.name = "relaxation", .quantity = "relaxation_work"};
   total.style = opening.style = mean.style;
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
     for (Curve* curve : {&mean, &slow, &total, &opening}) curve->x.push_back(velocity);
     mean.y.push_back(state.friction_coefficient);
+    // Only a surface has errors.
+    if (const double error = point.errors.friction_coefficient_error; !std::isnan(error)) {
+      mean.low.push_back(state.friction_coefficient - error);
+      mean.high.push_back(state.friction_coefficient + error);
+    }
     const double linear =
         state.static_friction_coefficient + state.low_speed_damping * velocity / state.mean_force;
     slow.y.push_back(std::min(linear, friction));
     total.y.push_back(state.relaxation_work + state.slip_work);
     opening.y.push_back(state.relaxation_work);
   }
+  if (mean.low.size() != mean.x.size()) mean.low = mean.high = {};
   const Axis x = axis_of("velocity", grows_by_factors(mean.x));
   Figure figure{
       .kind = "sliding",
       .caption =
           "Mean tangential over mean normal force of steady sliding beside a normal oscillation, "
-          "with its limit for slow sliding (static friction and damping constant Γ), and the "
-          "energy lost in a normal cycle.",
+          "with its limit for slow sliding, static friction µ_0 and a damping constant Γ "
+          "(µ_0 + Γv/F, at most µ), and the energy lost in a normal cycle, of which relaxation is "
+          "the "
+          "part of springs that open.",
       .columns = 2};
   figure.panels.push_back(
-      {.title = "Friction of steady sliding",
+      {.title = points.empty()
+                    ? ""
+                    : "static friction µ_0 = " +
+                          error_text(points.front().state.static_friction_coefficient,
+                                     points.front().errors.static_friction_coefficient_error,
+                                     Dimension::dimensionless),
        .x = x,
        .y = axis_of("friction_coefficient", false, "coefficient of friction F_x/F"),
        .legend = Legend::top_left});
   figure.panels.back().curves = {mean, slow};
-  figure.panels.push_back({.title = "Energy dissipated in a normal cycle",
-                           .x = x,
-                           .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W"),
-                           .legend = Legend::top_left});
+  figure.panels.push_back(
+      {.title = points.empty() ? ""
+                               : "damping constant of slow sliding Γ = " +
+                                     error_text(points.front().state.low_speed_damping,
+                                                points.front().errors.low_speed_damping_error,
+                                                Dimension::damping),
+       .x = x,
+       .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W"),
+       .legend = Legend::top_left});
   figure.panels.back().curves = {total, opening};
   return figure;
 }
