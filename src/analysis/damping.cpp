@@ -582,6 +582,9 @@ DamperSolution damper_of(DamperProblem problem, ContactSolution contact,
   }
   if (!problem.falling_slope) return solution;
   require_positive(*problem.falling_slope, "falling_slope");
+  require(!std::isnan(law.modulus_ratio()), "falling_slope", *problem.falling_slope,
+          "N s/m is answered on half-spaces only, as its search needs G*/E*; compute the damping "
+          "constant for several amplitudes");
   for (const double frequency : omega) {
     solution.stabilising_amplitude.push_back(stabilising_amplitude(
         law, point, frequency, *problem.falling_slope, problem.max_amplitude, options));

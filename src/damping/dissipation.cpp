@@ -229,6 +229,15 @@ double small_amplitude_factor(const ContactLaw& law, double curvature, const Ker
   return law.modulus_ratio() * curvature * kernel.normal_amplitude * kernel.small_amplitude;
 }
 
+/// Whether only the loss in the limit of a small amplitude is asked for. Throws InvalidInput if the
+/// law has no ratio of moduli, with which that limit is computed.
+bool by_small_amplitude(const ContactLaw& law, Amplitude amplitude) {
+  if (amplitude != Amplitude::small) return false;
+  require(!std::isnan(law.modulus_ratio()), "amplitude", name_of(amplitude),
+          "needs G*/E*, which only half-spaces have; use the finite amplitude");
+  return true;
+}
+
 double settled_indentation(const ContactLaw& law, const OperatingPoint& point) {
   if (point.control == ControlQuantity::indentation)
     require_finite(point.value, "indentation");
@@ -268,7 +277,7 @@ DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, con
   const double settled = settled_indentation(law, point);
   const double small_factor = small_amplitude_factor(law, law.force_curvature(settled), kernel);
   DampingResult result;
-  if (options.amplitude == Amplitude::small) {
+  if (by_small_amplitude(law, options.amplitude)) {
     detail::require_possible(law, settled, 0);
     set_state(result, law, settled);
     result.mean_force = result.max_force = result.force;
@@ -321,7 +330,7 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   result.hold = Hold::force;
   kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
   const double small_factor = small_amplitude_factor(law, result.force_curvature, kernel);
-  if (options.amplitude == Amplitude::small) {
+  if (by_small_amplitude(law, options.amplitude)) {
     set_work(result, {small_factor, 0, true}, kernel);
   } else {
     const NormalCycle cycle{

@@ -90,9 +90,12 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     }
     if (curve_law) {
       try {
-        const auto by_curvature = relaxation_damping(*curve_law, held, configuration.motion, small);
-        point.small_amplitude_work = by_curvature.work_per_cycle;
-        point.small_amplitude_damping_constant = by_curvature.damping_constant;
+        if (std::isfinite(modulus_ratio)) {
+          const auto by_curvature =
+              relaxation_damping(*curve_law, held, configuration.motion, small);
+          point.small_amplitude_work = by_curvature.work_per_cycle;
+          point.small_amplitude_damping_constant = by_curvature.damping_constant;
+        }
         auto by_curve = relaxation_damping(*curve_law, held, configuration.motion, options);
         if (by_curve.converged) {
           point.mean_force = by_curve.mean_force;

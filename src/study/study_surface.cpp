@@ -141,6 +141,7 @@ double modulus_of(const StudyConfiguration& configuration, double slope,
         {configuration.adhesion.has_value(), "adhesion"},
         {!conduction.conductivity.empty() || !conduction.resistivity.empty(), "conductance"},
         {!std::isnan(configuration.known.hardness), "a `hardness`"},
+        {configuration.damping.amplitude == Amplitude::small, "the small amplitude"},
         {!configuration.stick, "tangential stiffness in proportion to K"}})
     require_that(!given, "body",
                  fmt::format("given together with {}, known for homogeneous half-spaces only; "

@@ -64,6 +64,15 @@ TEST_CASE("Damping on a body is that of its contacts, without what only half-spa
   CHECK(solution.leaving_share == std::vector<double>{loss.leaving_share});
   CHECK(std::isnan(result.small_amplitude_work));
   CHECK(std::isnan(solution.ratio[0]));
+  DampingProblem small = problem_on(body);
+  small.amplitude = Amplitude::small;
+  CHECK_THROWS_WITH(solve(small), Contains("amplitude: small needs G*/E*"));
+  DamperProblem damper{
+      .contact = SurfaceContact{.surface = rough(), .body = body, .pressure = {pressure}},
+      .normal_amplitude = {3e-7},
+      .angular_frequency = {1e5},
+      .falling_slope = 1};
+  CHECK_THROWS_WITH(solve(damper), Contains("falling_slope"));
   // Density alone does not give a wave speed here, and Dundurs' constant has no meaning.
   CHECK(solution.assumptions[0].inertia.verdict == Verdict::unknown);
   CHECK(solution.assumptions[0].inertia.needs.empty());
