@@ -101,17 +101,27 @@ Examples
            [](const ResultReader& self) { return "ResultReader('" + self.file().string() + "')"; });
 }
 
+// Defines a function that writes a study as a page. page: name of the argument with its file.
+void define_report(nb::module_& m, const char* name, const char* page,
+                   void (*write)(const std::filesystem::path&, const std::filesystem::path&,
+                                 const ReportOptions&),
+                   const char* description) {
+  m.def(
+      name,
+      [write](const std::filesystem::path& results, const std::filesystem::path& to,
+              const std::string& title, const std::vector<std::filesystem::path>& direct,
+              bool overwrite) {
+        unlocked([&] { write(results, to, {{overwrite}, title, direct}); });
+      },
+      nb::arg("results"), nb::arg(page), nb::kw_only(), nb::arg("title") = "",
+      nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,
+      description);
+}
+
 void bind_report(nb::module_& m) {
   m.def("can_report", &can_report, "Whether this build has plotly.js, which reports need.");
-  m.def(
-      "write_report",
-      [](const std::filesystem::path& results, const std::filesystem::path& html,
-         const std::string& title, const std::vector<std::filesystem::path>& direct,
-         bool overwrite) {
-        unlocked([&] { write_report(results, html, {{overwrite}, title, direct}); });
-      },
-      nb::arg("results"), nb::arg("html"), nb::kw_only(), nb::arg("title") = "",
-      nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,
+  define_report(
+      m, "write_report", "html", &write_report,
       R"(Writes an HTML page about the results of a study, as the program's command `report` does. The page needs no network.
 
 The page has results and warnings, the surface, force over mean gap with the fit and its residuals, a comparison of the models, damping
@@ -137,15 +147,8 @@ InvalidInput
 IoError
     If :func:`can_report` is false, or if the operating system refuses.
 )");
-  m.def(
-      "write_report_pdf",
-      [](const std::filesystem::path& results, const std::filesystem::path& pdf,
-         const std::string& title, const std::vector<std::filesystem::path>& direct,
-         bool overwrite) {
-        unlocked([&] { write_report_pdf(results, pdf, {{overwrite}, title, direct}); });
-      },
-      nb::arg("results"), nb::arg("pdf"), nb::kw_only(), nb::arg("title") = "",
-      nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,
+  define_report(
+      m, "write_report_pdf", "pdf", &write_report_pdf,
       R"(The page of :func:`write_report` as PDF, printed by headless Chromium, which must be installed.
 
 Parameters

@@ -72,11 +72,7 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
   // A law without a ratio of moduli is that of a body on which springs are right only as far as K_t/K
   // is the same at all loads.
   if (std::isnan(law.modulus_ratio())) {
-    const double below =
-        law.indentation_of(std::max(result.mean_force / 2, law.force(law.lowest_indentation())));
-    const double exponent =
-        std::log(law.stiffness_ratio(below) / law.stiffness_ratio(result.indentation)) /
-        std::log(law.force(below) / law.force(result.indentation));
+    const double exponent = detail::stiffness_ratio_exponent(law, result.indentation);
     result.error.stiffness_ratio =
         std::hypot(result.error.stiffness_ratio, exponent * result.work_per_cycle);
   }

@@ -471,13 +471,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Body& bo
   const ForceSample stuck =
       stuck_at(high.force / area, surface, body, direction, on_progress).samples.front();
   const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
-  // Springs need a K_t/K that is the same at all loads. Its exponent is taken from the law over a
-  // factor of two of the force.
-  const double half =
-      law.indentation_of(std::max(high.force / 2, law.force(law.lowest_indentation())));
-  const double spring_error = detail::spring_error(
-      body, std::log(law.stiffness_ratio(half) / law.stiffness_ratio(spring_depth)) /
-                std::log(law.force(half) / law.force(spring_depth)));
+  const double spring_error =
+      detail::spring_error(body, detail::stiffness_ratio_exponent(law, spring_depth));
   // The work of pressing the bodies together, ∫F dδ, is the elastic energy.
   const double elastic_displacement = 2 * limit * high.elastic_energy / high.force;
   contact.initial_pressure = &high.contact_pressure;

@@ -74,4 +74,12 @@ ErrorBudget error_of_table(const ContactLaw& law, std::pair<double, double> swin
   return error;
 }
 
+double stiffness_ratio_exponent(const ContactLaw& law, double indentation) {
+  const double force = law.force(indentation), lowest = law.lowest_indentation();
+  const double least = std::isfinite(lowest) ? law.force(lowest) : 0;
+  const double below = law.indentation_of(std::max(force / 2, least));
+  return std::log(law.stiffness_ratio(below) / law.stiffness_ratio(indentation)) /
+         std::log(law.force(below) / force);
+}
+
 }  // namespace salebra::detail

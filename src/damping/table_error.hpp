@@ -23,4 +23,7 @@ ErrorBudget error_of_table(const ContactLaw& law, std::pair<double, double> swin
                            double work, double measure,
                            const std::function<double(const ContactLaw&)>& loss_of);
 
+/// d ln(K_t/K)/d ln F of a law about an indentation, over a factor of two of the force below it.
+double stiffness_ratio_exponent(const ContactLaw& law, double indentation);
+
 }  // namespace salebra::detail
