@@ -142,6 +142,8 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
         "The surface does not repeat itself, so it is alone on a half-space; --boundary periodic "
         "continues it, as contact and damping do.");
   const std::optional<Material>& constants = contact.material.half_space_material();
+  require(constants || body.boundary == Boundary::periodic, "--body", arguments.material.body_file,
+          "needs a periodic contact; add --boundary periodic");
   const OperatingPoint point = point_of(arguments.point, body);
   if (constants && point.control == ControlQuantity::pressure)
     session.warn_if(warning_of_pressure(point.value, constants->contact_modulus));

@@ -268,13 +268,8 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
 StudyConfiguration StudyArguments::study() const {
   const bool from_file = !configuration.empty();
   StudyConfiguration study = study_of(*this);
-  if (const std::optional<Body> body = material.body_of_file()) {
-    study.body = body;
-    study.models = {ContactModel::bem};
-  } else if (!from_file || material.given()) {
-    study.material = material.material_with_tangential_modulus();
-    study.body.reset();
-  }
+  if (!from_file || material.given() || !material.body_file.empty())
+    study.press_on(material.body());
   if (!from_file || motion.given()) {
     const auto motions = (from_file ? motion.completed_from(study.motion) : motion).motions();
     require(motions.size() == 1, motion.varied().first, motions.size(),

@@ -109,6 +109,8 @@ Body read_body(const std::filesystem::path& file) {
 Body detail::read_body_table(TomlTable& table, const std::filesystem::path& folder) {
   const auto file = table.text("file");
   if (!file) return read_elastic_body(table);
+  for (const char* key : {"datum", "layer", "base", "graded", "anisotropic"})
+    table.check(!table.has(key), key, "belongs into the file of `file`; move it there");
   table.require_no_other_keys();
   return table.located([&] { return read_body(folder / *file); });
 }

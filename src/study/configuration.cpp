@@ -280,8 +280,9 @@ Material read_material(TomlTable table, ContactParameters& known, bool moduli) {
   known.friction_coefficient = read_fact(table, "friction_coefficient", Dimension::dimensionless);
   known.hardness = read_fact(table, "hardness", Dimension::pressure);
   known.density = read_fact(table, "density", Dimension::mass_density);
-  // With a [body] every modulus is a key that nobody reads.
   if (!moduli) {
+    for (const char* key : {"young", "poisson", "contact_modulus", "tangential_modulus"})
+      table.check(!table.has(key), key, "is given together with [body]; leave one of them out");
     table.require_no_other_keys();
     return {};
   }
@@ -483,6 +484,16 @@ bool StudyConfiguration::has(ContactModel model) const {
   return std::ranges::find(models, model) != models.end();
 }
 
+void StudyConfiguration::press_on(const Body& pressed) {
+  if (const std::optional<Material>& half_spaces = pressed.half_space_material()) {
+    material = *half_spaces;
+    body.reset();
+  } else {
+    body = pressed;
+    models = {ContactModel::bem};
+  }
+}
+
 bool StudyConfiguration::of_twin() const {
   const auto* generated = std::get_if<GeneratedSurfaces>(&surfaces);
   return generated && generated->tables.size() > 1;
@@ -523,11 +534,12 @@ StudyConfiguration parse(const std::string& text, const std::string& name,
     surface->require_no_other_keys();
   }
   if (ensemble) ensemble->located([&] { parameter_combinations(configuration); });
-  if (auto body = root.table("body")) configuration.body = detail::read_body_table(*body, folder);
-  if (!configuration.body || root.has("material"))
+  std::optional<Body> body;
+  if (auto table = root.table("body")) body = detail::read_body_table(*table, folder);
+  if (!body || root.has("material"))
     configuration.material = read_material(root.required_table("material"), configuration.known,
-                                           /*moduli=*/!configuration.body);
-  if (configuration.body) configuration.models = {ContactModel::bem};
+                                           /*moduli=*/!body);
+  if (body) configuration.press_on(*body);
   if (auto conduction = root.table("conduction")) read_conduction(*conduction, configuration);
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);

@@ -131,9 +131,8 @@ void warn_of_lay(const SurfaceLay& lay, double skewness, const StudyConfiguratio
 }
 
 /// E* of the half-spaces, or pressure_scale()/h' of the first surface on another body. Throws
-/// InvalidInput for what is not computed on such a body. slope: h' of loads.
-double modulus_of(const StudyConfiguration& configuration, double slope,
-                  const Communicator& communicator) {
+/// InvalidInput for what is not computed on such a body.
+double modulus_of(const StudyConfiguration& configuration, const Communicator& communicator) {
   if (!configuration.body) return configuration.material.contact_modulus;
   const Conduction& conduction = configuration.conduction;
   for (const auto& [given, what] :
@@ -149,7 +148,7 @@ double modulus_of(const StudyConfiguration& configuration, double slope,
                              what));
   const Surface first =
       study_surface(configuration, detail::seeds_of(configuration).front(), {}, communicator);
-  return pressure_scale(first, *configuration.body) / slope;
+  return pressure_scale(first, *configuration.body) / surface_moments(first).rms_slope();
 }
 
 }  // namespace
@@ -189,7 +188,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     grid = surface.grid;
     warn_of_lay(surface_lay(surface), significant_skewness(surface), configuration, loads);
   }
-  const double modulus = modulus_of(configuration, slope, communicator);
+  const double modulus = modulus_of(configuration, communicator);
   const bool adhesive = configuration.adhesion.has_value();
   require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
           "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");

@@ -188,6 +188,9 @@ struct StudyConfiguration {
   /// surface, and no G*.
   std::optional<Body> body = {};
   Body pressed() const { return body.value_or(Body(material)); }  ///< what the surfaces press on
+  /// Presses the surfaces on this body: sets `material` if it is half-spaces, otherwise `body`, and
+  /// leaves boundary elements as the only model.
+  void press_on(const Body& pressed);
   /// Pressures of the sweep with boundary elements, increasing: in Pa or, if relative_pressures is
   /// true, in units of E*h'_rms.
   std::vector<double> pressures;

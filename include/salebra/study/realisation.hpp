@@ -409,10 +409,10 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
 /// The loads of a study, known before the computation.
 struct StudyLoads {
   /// E*h'_rms, Pa, the unit of relative pressures. h'_rms is the rms slope that the spectrum has on
-  /// the grid (without random scatter), or that of the measured surface. With a body in place of
-  /// half-spaces: pressure_scale() of the first surface.
+  /// the grid (without random scatter), or that of the measured surface.
   double contact_scale = 0;
-  double contact_modulus = 0;          ///< contact_scale/h'_rms, Pa
+  /// E*, Pa; of a body in place of half-spaces pressure_scale()/h'_rms of the first surface.
+  double contact_modulus = 0;
   std::vector<double> pressures = {};  ///< of the sweep, Pa
   /// Warnings of read_surface(), warning_of_slope() and warning_of_pressure().
   std::vector<std::string> warnings = {};
