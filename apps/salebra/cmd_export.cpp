@@ -107,6 +107,9 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
   for (ForceCurve& curve : read_force_curves(file)) {
     require_that(curve.nominal_area > 0 || arguments.law.nominal_area || complete_forces(curve),
                  "--nominal-area", "not given, but " + file + " has pressures without forces");
+    require(curve.body.empty() || !material.given(), "curve", file,
+            "is of a body that is not a half-space, which has no G*/E*; leave out the elastic "
+            "constants");
     const double sample_area = curve.nominal_area;
     if (contacts.empty()) add_direction_comment(curve, arguments.direction, problem);
     if (arguments.law.nominal_area)

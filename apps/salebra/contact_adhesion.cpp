@@ -102,6 +102,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   Branch loading;
   loading.curve.model = "bem";
   loading.curve.adhesive = true;
+  loading.curve.body = body.fingerprint();
   loading.curve.nominal_area = area;
   loading.curve.rms_height = height_statistics(surface).rms_height;
   Branch unloading = loading;

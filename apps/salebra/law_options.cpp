@@ -112,12 +112,14 @@ std::vector<ContactProblem> LawOptions::problems(const MaterialOptions& material
     const OperatingPoints points =
         operating_point_of(*this, {ControlQuantity::normal_force, ControlQuantity::indentation,
                                    ControlQuantity::pressure, ControlQuantity::mean_gap});
-    for (ForceCurve& one : read_force_curves(curve))
+    for (ForceCurve& one : read_force_curves(curve)) {
+      const double ratio = material.modulus_ratio_of(one, curve);
       all.emplace_back(CurveContact{.curve = std::move(one),
-                                    .modulus_ratio = material.modulus_ratio_of_curve(),
+                                    .modulus_ratio = ratio,
                                     .at = points,
                                     .source = curve,
                                     .direction = direction_choice(direction, "--direction")});
+    }
     return all;
   }
   all.push_back(problem(material, session, hardness, direction));
@@ -139,12 +141,15 @@ ContactProblem LawOptions::read(const MaterialOptions& material, bool with_point
   };
   require_one(!indenter.law.empty(), "--law", !curve.empty(), "--curve");
   require_own_parameters();
-  if (!curve.empty())
-    return CurveContact{.curve = read_force_curve(curve),
-                        .modulus_ratio = material.modulus_ratio_of_curve(),
+  if (!curve.empty()) {
+    ForceCurve one = read_force_curve(curve);
+    const double ratio = material.modulus_ratio_of(one, curve);
+    return CurveContact{.curve = std::move(one),
+                        .modulus_ratio = ratio,
                         .at = control({normal_force, ControlQuantity::indentation,
                                        ControlQuantity::pressure, ControlQuantity::mean_gap}),
                         .source = curve};
+  }
   if (indenter.law == "exponential") {
     control({normal_force});
     const double length = required(decay_length, "--decay-length", "--law exponential needs it");

@@ -190,8 +190,16 @@ double MaterialOptions::modulus_ratio() const {
   return material_with_tangential_modulus().modulus_ratio();
 }
 
-double MaterialOptions::modulus_ratio_of_curve() const {
-  return body_of_file() ? std::numeric_limits<double>::quiet_NaN() : modulus_ratio();
+double MaterialOptions::modulus_ratio_of(const ForceCurve& curve, const std::string& source) const {
+  const std::optional<Body> body = body_of_file();
+  const std::string wanted = body ? body->fingerprint() : "";
+  require(wanted == curve.body, "--curve", source,
+          curve.body.empty()
+              ? "has no body, as curves of half-spaces; compute it with contact --body and "
+                "--stiffness, or leave out --body"
+          : wanted.empty() ? "is of a body that is not a half-space; give it with --body"
+                           : "is of another body, or of another datum, than --body");
+  return body ? body->modulus_ratio() : modulus_ratio();
 }
 
 double MaterialOptions::coupling_constant() const {

@@ -102,8 +102,9 @@ struct MaterialOptions {
   Material material_with_tangential_modulus() const;
   /// G*/E*. If one body is rigid, --poisson of the elastic body is enough.
   double modulus_ratio() const;
-  /// The same for a curve that may have K_t of its own: NaN for --body.
-  double modulus_ratio_of_curve() const;
+  /// The same for a curve, which has K_t of its own if its body is not a half-space: then NaN. Throws
+  /// InvalidInput unless the curve is that of this material or body. source: its file.
+  double modulus_ratio_of(const ForceCurve& curve, const std::string& source) const;
   /// The coupling constant β/(πE*), 1/Pa, with Dundurs' constant β; from the two bodies of --young
   /// or, if they are not given, from the material.
   double coupling_constant() const;

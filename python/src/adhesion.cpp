@@ -195,6 +195,7 @@ AdhesiveContactState
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
                 ForceCurve curve;
                 curve.model = "bem";
+                curve.body = body.fingerprint();
                 curve.adhesive = true;
                 curve.nominal_area = surface.surface.grid.area();
                 for (const AdhesiveContactState& state : branch)

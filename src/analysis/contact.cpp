@@ -131,10 +131,6 @@ std::vector<std::string> warnings_of_moduli(const ForceCurve& curve, double modu
                   modulus_ratio, low)};
 }
 
-/// Whether a contact in which all cells touch cannot be indented further. A layer measured from its
-/// base can.
-bool closes(const Body& body) { return !(body.compliance(0).normal > 0); }
-
 /// The requested pressures and further ones around each, from a sixth to six times it. They are
 /// close enough for a smooth law through the contacts.
 std::vector<double> pressures_about(std::vector<double> asked) {
@@ -175,7 +171,7 @@ std::vector<ForceCurve> curves_of_surface(const SurfaceContact& body,
   require_converged(curves.front(), context);
   // In full contact nothing can close further: the force grows without indentation.
   const auto full = [&](const ForceSample& sample) {
-    return closes(body.body) && !(sample.contact_area_fraction < 1);
+    return body.body.stops_at_full_contact() && !(sample.contact_area_fraction < 1);
   };
   for (const ForceSample& sample : curves.front().samples)
     if (full(sample))
@@ -207,8 +203,8 @@ void cover_motion(std::vector<ForceCurve>& curves, const std::vector<double>& di
   constexpr double step = 1.35, lowest_share = 0.01;
   const double amplitude = body.normal_amplitude, ratio = body.body.modulus_ratio();
   const SweepOptions options = sweep_options(context);
-  const double full = closes(body.body) ? detail::full_contact(body.surface)
-                                        : std::numeric_limits<double>::infinity();
+  const double full = body.body.stops_at_full_contact() ? detail::full_contact(body.surface)
+                                                        : std::numeric_limits<double>::infinity();
   std::vector<double> below;
   for (const double pressure : body.pressure) {
     const double force = pressure * curve.nominal_area;

@@ -200,7 +200,7 @@ double mean_indentation(const OscillatingBody& body, const Body& material,
   };
   for (double share = lowest; share < 1; share *= factor) add(at(at_force(share * rest.force)));
   add(rest);
-  const bool closes = body.boundary == Boundary::periodic && !(material.compliance(0).normal > 0);
+  const bool closes = body.boundary == Boundary::periodic && material.stops_at_full_contact();
   const double full =
       closes ? detail::full_contact(body.surface) : std::numeric_limits<double>::infinity();
   for (;;) {

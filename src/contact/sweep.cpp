@@ -42,6 +42,8 @@ double stiffness_on(const NormalContactState& state, const Grid2D& grid, const B
                     const NormalContactOptions& options, Field* punch_pressure) {
   return normal_stiffness(state, grid, body, options, punch_pressure);
 }
+std::string fingerprint_of(const Material&) { return {}; }
+std::string fingerprint_of(const Body& body) { return body.fingerprint(); }
 Field first_tractions(const Material& material, const Field& punch_pressure) {
   return punch_pressure * material.modulus_ratio();
 }
@@ -239,6 +241,7 @@ std::vector<ForceCurve> sweep(const Surface& surface, const Pressed& pressed,
 
   ForceCurve curve;
   curve.model = "bem";
+  curve.body = fingerprint_of(pressed);
   curve.nominal_area = surface.grid.area();
   curve.rms_height = height_statistics(surface).rms_height;
   std::vector<ForceCurve> curves(directions.size(), curve);

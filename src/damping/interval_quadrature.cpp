@@ -337,6 +337,7 @@ IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, co
     result.work_by_force = result.small_amplitude_work = result.stiffness_ratio =
         std::numeric_limits<double>::quiet_NaN();
   result.curve.model = "bem";
+  result.curve.body = body.fingerprint();
   result.curve.nominal_area = grid.area();
   for (auto level = solved.values.rbegin(); level != solved.values.rend(); ++level)
     result.curve.samples.push_back(level->sample);

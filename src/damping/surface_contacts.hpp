@@ -190,7 +190,7 @@ class SurfaceContacts {
     // must stay below this limit.
     limit_ = std::numeric_limits<double>::infinity();
     peak_ = full_contact(surface);
-    if (options.boundary == Boundary::periodic && !(body.compliance(0).normal > 0)) limit_ = peak_;
+    if (options.boundary == Boundary::periodic && body.stops_at_full_contact()) limit_ = peak_;
   }
 
   /// Indentation at full contact, m; infinity for a surface alone on a half-space.

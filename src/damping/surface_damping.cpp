@@ -773,6 +773,10 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curves, options);
+  const std::string fingerprint = body.fingerprint();
+  for (const ForceCurve& curve : curves)
+    require_that(curve.body == fingerprint, "curve",
+                 "is that of another body, or of another datum; compute it with this one");
   const Hold hold = detail::hold_of(curves.front(), detail::normal_amplitude(motion), options.hold);
   // The loads of each curve.
   std::vector<std::vector<Load>> loads(curves.size());

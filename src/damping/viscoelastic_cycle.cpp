@@ -675,7 +675,7 @@ class SteadyState {
 
     NormalCycles normal(steps_, surface_, spring_, path);
     if (held_stiffness_ > 0) normal.hold_force(held_force_, held_stiffness_);
-    if (options_.contact.boundary == Boundary::periodic && !(body_.compliance(0).normal > 0))
+    if (options_.contact.boundary == Boundary::periodic && body_.stops_at_full_contact())
       normal.limit(steps_.highest() - surface_.heights.mean());
     const SearchReport found = find_periodic(
         state_, normal, path.amplitude > 0 ? path.amplitude : rest_indentation_, lost, options_);

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <salebra/base/version.hpp>
 
+#include "base/checksum.hpp"
 #include "c_header.hpp"
-#include "io/checksum.hpp"
 #include "io/child_program.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/zip_archive.hpp"

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/checksum.hpp"
 #include "base/memory.hpp"
-#include "checksum.hpp"
 #include "input.hpp"
 #include "loaded_surface.hpp"
 

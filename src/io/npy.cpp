@@ -9,7 +9,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "checksum.hpp"
+#include "base/checksum.hpp"
 #include "header_words.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"

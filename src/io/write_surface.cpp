@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "atomic_file.hpp"
-#include "checksum.hpp"
+#include "base/checksum.hpp"
 #include "hdf5_output.hpp"
 #include "json.hpp"
 #include "sidecar.hpp"

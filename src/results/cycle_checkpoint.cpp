@@ -11,14 +11,13 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "base/archive.hpp"
-#include "io/checksum.hpp"
+#include "base/checksum.hpp"
 
 namespace salebra {
 namespace {
@@ -209,15 +208,7 @@ CycleSettings cycle_settings(const Grid2D& grid, const Body& body, const Oscilla
     add("cerruti_isotropic", material->cerruti_isotropic);
     add("cerruti_directed", material->cerruti_directed);
   } else {
-    // Two bodies that respond alike to the longest wave and to the shortest along x are taken for
-    // one.
-    settings.emplace_back("datum", name_of(body.datum()));
-    for (const double wavelength : {grid.lx, 2 * grid.dx()}) {
-      const SurfaceCompliance response = body.compliance(2 * std::numbers::pi / wavelength);
-      add("normal_compliance", response.normal);
-      add("in_plane_compliance", response.in_plane);
-      add("across_compliance", response.across);
-    }
+    settings.emplace_back("body", body.fingerprint());
   }
   add("indentation", mean_indentation);
   if (const auto* drag = std::get_if<Drag>(&motion)) {

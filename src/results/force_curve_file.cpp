@@ -80,6 +80,7 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
   group.attribute("nominal_area", curve.nominal_area);
   group.attribute("rms_height", curve.rms_height);
   if (curve.adhesive) group.attribute("adhesive", "yes");
+  if (!curve.body.empty()) group.attribute("body", curve.body);
 }
 
 std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std::string& group) {
@@ -88,6 +89,7 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
   curve.adhesive = reader.text_attribute(group, "adhesive").has_value();
+  curve.body = reader.text_attribute(group, "body").value_or("");
   std::optional<std::size_t> length;  // number of samples; empty until the first column is read
   std::size_t surfaces = 1;
   bool study = false;

@@ -51,6 +51,7 @@ void read_comment(const std::filesystem::path& file, std::string_view line, Forc
   try {
     if (key == "model") curve.model = value;
     if (key == "adhesive") curve.adhesive = true;
+    if (key == "body") curve.body = value;
     if (key == "nominal_area")
       curve.nominal_area = parse_quantity(value, Dimension::length_squared, key);
     if (key == "rms_height") curve.rms_height = parse_quantity(value, Dimension::length, key);
@@ -155,6 +156,7 @@ std::string text_of(const ForceCurve& curve, const std::vector<CurveColumn>& bes
   if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
   if (curve.adhesive) text += "# adhesive: yes\n";
+  if (!curve.body.empty()) text += "# body: " + printable_line(curve.body) + "\n";
   std::vector<CurveColumn> columns;
   for (const auto& [quantity, member] : curve_quantities())
     if (CurveColumn column{quantity, curve.column(member)};

@@ -2,37 +2,24 @@
 // Binary record of a realisation, with its key and a checksum.
 #include "realisation_record.hpp"
 
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 
 #include "base/archive.hpp"
+#include "base/checksum.hpp"
 #include "case_run.hpp"
-#include "io/checksum.hpp"
 #include "io/input_file.hpp"
 #include "io/sidecar.hpp"
 
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 15\n";
+constexpr std::string_view magic = "salebra realisation 16\n";
 
 /// Checksum of a file; 0 if the file does not exist.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
-}
-
-/// Responses of a body to waves from 1 nm to 10 m, by which it is recognised.
-std::vector<double> responses_of(const Body& body) {
-  std::vector<double> responses{double(body.datum())};
-  for (int k = 0; k <= 40; ++k) {
-    const SurfaceCompliance one = body.compliance(2e9 * std::numbers::pi * std::pow(10, -k / 4.0));
-    for (const double response : {one.normal, one.in_plane, one.across})
-      responses.push_back(response);
-  }
-  return responses;
 }
 
 std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {
@@ -66,7 +53,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
       point.relative_error, point.seam, point.direction.index(),
       std::visit([](auto value) { return static_cast<double>(value); }, point.direction),
       seeds_of(point).size() == 1, seed == seeds_of(point).front());
-  if (point.body) bytes += bytes_of(responses_of(*point.body));
+  if (point.body) bytes += bytes_of(point.body->fingerprint());
   return Checksum(bytes).value();
 }
 

@@ -162,6 +162,8 @@ void write_surfaces(Table table, const StudyResult& result) {
 }
 
 void write_curves(Table table, const StudyResult& result) {
+  if (const std::optional<Body>& body = result.configuration.body)
+    table.group().attribute("body", body->fingerprint());
   table.models(result);
   table.realisations(result);
   table.pressures(result);

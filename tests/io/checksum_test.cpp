@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/checksum.hpp"
+#include "base/checksum.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -3,12 +3,14 @@
 // asked in two ways.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/analysis/oscillation.hpp>
 #include <salebra/analysis/sliding.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
 #include <salebra/surface/moments.hpp>
@@ -181,8 +183,15 @@ poisson = 0.4
   const StudyResult result = run_study(study);
   const StudySolution solution = solution_of(result);
   const Surface surface = study_surface(study, 1);
-  // Relative pressures are those of the scale of this surface.
-  CHECK(result.pressures[0] == Approx(1e-3 * pressure_scale(surface, *study.body)).epsilon(1e-9));
+  // Relative pressures are those of the scale of this surface, at the mean slope of all surfaces, by
+  // which a half-space has E*h'.
+  const double mean_slope = std::get<GeneratedSurfaces>(study.surfaces)
+                                .spectrum_of_all()
+                                ->lattice_moments(surface.grid)
+                                .rms_slope();
+  CHECK(result.pressures[0] == Approx(1e-3 * pressure_scale(surface, *study.body) * mean_slope /
+                                      surface_moments(surface).rms_slope())
+                                   .epsilon(1e-9));
   const ForceCurve curve = sweep_pressures(surface, *study.body, result.pressures, {.stick = true});
   const auto losses = surface_damping(surface, *study.body, study.motion, curve,
                                       surface_damping_options(study, surface.grid, 1));
@@ -199,6 +208,28 @@ poisson = 0.4
   }
   CHECK(std::isnan(result.damping(&DampingPoint::work_per_cycle_closed_form)[2].mean));
 
+  // A half-space in place of the moduli is these moduli, with all models.
+  StudyConfiguration half_spaces = study;
+  half_spaces.models = parse_study_configuration(study_text("seeds = [1]", 6), "m.toml").models;
+  half_spaces.press_on(Body::half_space({9.1e9, 0.3}));
+  CHECK_FALSE(half_spaces.body);
+  CHECK(half_spaces.models.size() > 1);
+  CHECK(study_loads(half_spaces).contact_scale == Approx(1e10 * mean_slope).epsilon(1e-12));
+
+  // A curve knows its body, also from a file.
+  for (const char* name : {"salebra_curve_of_body.csv", "salebra_curve_of_body.h5"}) {
+    const auto path = std::filesystem::temp_directory_path() / name;
+    write_force_curve(path, curve, {}, {.overwrite = true});
+    CHECK(read_force_curve(path).body == study.body->fingerprint());
+    std::filesystem::remove(path);
+  }
+  CHECK_THROWS_WITH(
+      surface_damping(surface, study.body->measured_from(Datum::mean_plane), study.motion, curve),
+      Contains("curve: is that of another body"));
+  CHECK_THROWS_WITH(
+      surface_damping(surface, Material::of_contact_modulus(1e10, 0.3), study.motion, curve),
+      Contains("curve: is that of another body"));
+
   // What is known for half-spaces only is refused by name.
   StudyConfiguration other = study;
   other.models = {ContactModel::bem, ContactModel::gw_moments};
@@ -210,5 +241,5 @@ poisson = 0.4
   CHECK_THROWS_WITH(parse_study_configuration(text.replace(text.find("[material]\n"), 11,
                                                            "[material]\nyoung = \"1GPa\"\n"),
                                               "both.toml"),
-                    Contains("material.young"));
+                    Contains("material.young: is given together with [body]"));
 }

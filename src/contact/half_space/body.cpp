@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surface responses of linear bodies: half-spaces, layers, graded and transversely isotropic
 // half-spaces, tables.
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/body.hpp>
 
+#include "base/checksum.hpp"
 #include "base/numerics/hermite.hpp"
 #include "base/special_values.hpp"
 #include "poisson.hpp"
@@ -278,6 +281,21 @@ SurfaceCompliance Body::compliance(double wavenumber) const {
 bool Body::has_tangential_response() const { return parts_->tangential; }
 
 const std::optional<Material>& Body::half_space_material() const { return parts_->material; }
+
+std::string Body::fingerprint() const {
+  if (parts_->material) return {};
+  std::string text(name_of(datum()));
+  for (int k = 0; k <= 40; ++k) {
+    SurfaceCompliance one{unknown, unknown, unknown, unknown};
+    try {
+      one = compliance(2e9 * pi * std::pow(10, -k / 4.0));
+    } catch (const InvalidInput&) {
+      // A table ends at this wave.
+    }
+    text += fmt::format(" {:.8e} {:.8e} {:.8e}", one.normal, one.in_plane, one.across);
+  }
+  return detail::Checksum(text).digits();
+}
 
 double Body::modulus_ratio() const {
   return parts_->material ? parts_->material->modulus_ratio() : unknown;

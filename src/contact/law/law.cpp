@@ -191,7 +191,9 @@ TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
   std::vector<double> indentation, log_force, slope, log_tangential;
   const bool has_normal = known(columns, &Column::normal_stiffness);
   const bool has_tangential = known(columns, &Column::tangential_stiffness);
-  if (!has_tangential) require_positive(modulus_ratio, "modulus_ratio");
+  require_that(has_tangential || !std::isnan(modulus_ratio), "tangential_stiffness",
+               "is not known at all loads of the curve, and its body has no G*/E* to replace it; "
+               "compute the curve with it");
   for (const Column& column : columns) {
     indentation.push_back(column.indentation);
     log_force.push_back(std::log(column.force));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -143,6 +144,13 @@ class Body {
   /// G*/E* of half_space_material(); NaN for other bodies, of which no constant gives K_t/K. Throws
   /// InvalidInput for half-spaces with E* alone.
   double modulus_ratio() const;
+  /// Whether a contact in which all cells touch can be indented no further: true unless displacements
+  /// are measured from the base of a compressible layer.
+  bool stops_at_full_contact() const { return !(compliance(0).normal > 0); }
+  /// Checksum of the datum and of the responses to waves from 1 nm to 10 m (as far as they are
+  /// known), to nine digits, by which curves, checkpoints and parts of studies recognise their body;
+  /// empty for homogeneous half-spaces, whose constants they keep.
+  std::string fingerprint() const;
   /// True if the copies share their data, and thus all responses are equal.
   bool same_as(const Body& other) const { return parts_ == other.parts_; }
 

@@ -61,6 +61,8 @@ struct ForceCurve {
   std::vector<ForceSample> samples;
   bool adhesive = false;  ///< true for contacts with adhesion, which TabulatedLaw rejects because
                           ///< they have no single-valued law
+  /// Body::fingerprint() of the body under the surface; empty: half-spaces, or not known.
+  std::string body = {};
 
   /// Direction of the tangential stiffnesses, from the x axis, rad: that of the first sample; NaN
   /// without samples.
@@ -86,6 +88,8 @@ constexpr void describe(auto&& visit, std::type_identity<ForceCurve>) {
   visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&ForceCurve::samples, Table{"samples", "from the lowest force to the highest"});
   visit(&ForceCurve::adhesive, Kept{"adhesive", "whether its contacts adhere"});
+  visit(&ForceCurve::body,
+        Kept{"body", "checksum of the body under the surface; empty: half-spaces"});
 }
 
 }  // namespace salebra
