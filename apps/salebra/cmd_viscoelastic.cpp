@@ -116,6 +116,13 @@ std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
         fmt::format("viscoelastic: {} of {} steady states were not found; allow a larger "
                     "--tolerance, or leave out relaxation times beyond 1e3 periods",
                     lost, cycles.size()));
+  if (const auto lost = std::ranges::count_if(
+          cycles, [](const ViscoelasticCycle& one) { return std::isnan(one.work_per_cycle); });
+      lost > 0)
+    session.warn(
+        fmt::format("n/a at {} of {} motions: the error of the loss is not smaller than "
+                    "the loss; give more --steps",
+                    lost, cycles.size()));
   return cycles;
 }
 

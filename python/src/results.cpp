@@ -124,7 +124,7 @@ void bind_report(nb::module_& m) {
       m, "write_report", "html", &write_report,
       R"(Writes an HTML page about the results of a study, as the program's command `report` does. The page needs no network.
 
-The page has results and warnings, the surface, force over mean gap with the fit and its residuals, a comparison of the models, damping
+The page has results and warnings, the surface, force over mean gap with the fit, a comparison of the models, damping
 with bands, settings and provenance. Every figure comes with its numbers as a table and as CSV.
 
 Parameters

@@ -2,6 +2,7 @@
 // Rough contact of a viscoelastic body along a path, and its periodic state under an oscillation.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <salebra/base/error.hpp>
@@ -715,7 +716,7 @@ class SteadyState {
     result.cycles = found.cycles;
     result.residual = found.residual;
     result.normal_work = normal.work();
-    result.indentation = normal.indentation();
+    result.mean_indentation = normal.indentation();
     result.mean_force = normal.mean_force();
     result.normal_storage_stiffness = normal.storage_stiffness();
     if (path.amplitude > 0)
@@ -771,6 +772,21 @@ class SteadyState {
 };
 
 }  // namespace
+
+void ViscoelasticCycle::drop_uncertain() {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  // A contact that never touches loses nothing, exactly.
+  if (work_per_cycle == 0 && work_per_cycle_error == 0) return;
+  if (!(work_per_cycle_error < tangential_work))
+    damping_constant = tangential_loss_stiffness = unknown;
+  if (work_per_cycle_error < work_per_cycle) return;
+  for (double ViscoelasticCycle::*const number :
+       {&ViscoelasticCycle::work_per_cycle, &ViscoelasticCycle::normal_work,
+        &ViscoelasticCycle::tangential_work, &ViscoelasticCycle::jump_work,
+        &ViscoelasticCycle::dissipated, &ViscoelasticCycle::power,
+        &ViscoelasticCycle::normal_loss_stiffness})
+    this->*number = unknown;
+}
 
 ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
                                    const PronySeries& relaxation, std::span<const double> time,
@@ -854,6 +870,7 @@ std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const 
     fine.termination = std::max(fine.termination, coarse.termination);
     fine.step_error = std::abs(fine.work_per_cycle - coarse.work_per_cycle);
     fine.work_per_cycle_error = fine.step_error + std::abs(fine.dissipated - fine.work_per_cycle);
+    fine.drop_uncertain();
     sweep.push_back(std::move(fine));
   }
   return sweep;

@@ -121,7 +121,7 @@ struct ViscoelasticCycle {
   /// The same for F_x and x; NaN without tangential motion or for a Drag.
   double tangential_storage_stiffness = std::numeric_limits<double>::quiet_NaN();
   double tangential_loss_stiffness = std::numeric_limits<double>::quiet_NaN();
-  double indentation = 0;                   ///< mean indentation, m
+  double mean_indentation = 0;              ///< mean of δ over the cycle, m
   double mean_force = 0;                    ///< mean of F over the cycle, N
   double contact_area_min = 0;              ///< smallest of the cycle, m²
   double contact_area_max = 0;              ///< largest of the cycle, m²
@@ -134,6 +134,9 @@ struct ViscoelasticCycle {
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
+  /// Makes NaN what does not exceed its error: all numbers of the loss, or only those of
+  /// tangential_work alone (damping constant and tangential loss stiffness).
+  void drop_uncertain();
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCycle>) {
@@ -162,7 +165,8 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCycle>) {
   visit(&S::tangential_loss_stiffness,
         Quantity{"tangential_loss_stiffness", stiffness,
                  "tangential force out of phase over the amplitude"});
-  visit(&S::indentation, quantity::indentation);
+  visit(&S::mean_indentation,
+        Quantity{"mean_indentation", length, "mean indentation over the cycle"});
   visit(&S::mean_force, quantity::mean_force);
   visit(&S::contact_area_min,
         Quantity{"contact_area_min", length_squared, "minimum contact area of a cycle"});
@@ -190,7 +194,8 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCycle>) {
 /// loss theorem does not hold here, because contact sets depend on the past.
 /// The error of the steps is of second order while cells enter at a smooth rate; `steps` and
 /// steps/2 are both computed, and step_error is the change, three times the error of a second-order
-/// rule. It does not include the error due to the cell size.
+/// rule. It does not include the error due to the cell size. A loss that does not exceed its error is
+/// NaN (drop_uncertain()).
 /// surface, body, relaxation  as for viscoelastic_path(); the tangential response must be known if
 ///         the motion has a tangential part
 /// motion  ω > 0 must be given. A Drag must be slow against all relaxation times
