@@ -775,8 +775,6 @@ class SteadyState {
 
 void ViscoelasticCycle::drop_uncertain() {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  // A contact that never touches loses nothing, exactly.
-  if (work_per_cycle == 0 && work_per_cycle_error == 0) return;
   if (!(work_per_cycle_error < tangential_work))
     damping_constant = tangential_loss_stiffness = unknown;
   if (work_per_cycle_error < work_per_cycle) return;
