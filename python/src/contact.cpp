@@ -16,6 +16,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 
+#include "base/special_values.hpp"
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
@@ -27,7 +28,7 @@
 namespace salebra::python {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 void bind_material(nb::module_& m) {
   described_class<ElasticBody>(
@@ -39,7 +40,7 @@ void bind_material(nb::module_& m) {
           [](ElasticBody* self, double young, double poisson) {
             new (self) ElasticBody{young, poisson};
           },
-          nb::arg("young") = infinite, nb::arg("poisson") = 0.0);
+          nb::arg("young") = infinity, nb::arg("poisson") = 0.0);
 
   described_class<Material>(m, "Material", R"(Elastic constants of the two bodies of a contact.
 
@@ -132,8 +133,8 @@ the period of the surface do not exist: a layer much thicker than the period is 
                                     std::move(across), uniform_normal, uniform_tangential});
           },
           nb::arg("wavenumber"), nb::arg("normal"), nb::arg("in_plane") = std::vector<double>(),
-          nb::arg("across") = std::vector<double>(), nb::arg("uniform_normal") = infinite,
-          nb::arg("uniform_tangential") = infinite,
+          nb::arg("across") = std::vector<double>(), nb::arg("uniform_normal") = infinity,
+          nb::arg("uniform_tangential") = infinity,
           "A response given at wave numbers, m/Pa; ln C is a cubic of ln q between them. The "
           "uniform responses are those of a body on a rigid base.")
       .def_static("pair", &Body::pair, nb::arg("first"), nb::arg("second"),
@@ -241,7 +242,7 @@ void bind_presses(nb::module_& m) {
       nb::arg("mean_gap") = nb::none(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
-      nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
+      nb::arg("hardness") = infinity, nb::arg("initial_pressure") = nb::none(),
       nb::arg("progress") = false,
       R"(Frictionless contact of a rigid rough surface with an elastic half-space at a nominal pressure, force, mean gap or indentation.
 

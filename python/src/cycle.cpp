@@ -10,13 +10,13 @@
 
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/damping/joint.hpp>
 
+#include "base/special_values.hpp"
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
@@ -32,7 +32,7 @@
 namespace salebra::python {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 NormalContactOptions contact_options(double tolerance, int max_iterations,
                                      const Choice<Boundary>& boundary) {
@@ -259,7 +259,7 @@ InvalidInput
               });
         },
         nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-        nb::kw_only(), nb::arg("friction_coefficient") = infinite, constant_argument...,
+        nb::kw_only(), nb::arg("friction_coefficient") = infinity, constant_argument...,
         nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5,
         nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
         nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),

@@ -11,6 +11,7 @@
 #include <salebra/contact/tangential/stick.hpp>
 #include <variant>
 
+#include "base/special_values.hpp"
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
@@ -23,7 +24,7 @@
 namespace salebra::python {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 void bind_stiffness(nb::module_& m) {
   described_class<StickStiffness>(
@@ -137,7 +138,7 @@ tolerance, max_iterations, boundary
                                         .boundary = boundary.value("boundary")}});
           },
           nb::arg("grid"), nb::arg("material"), nb::kw_only(),
-          nb::arg("friction_coefficient") = infinite, nb::arg("motion_scale"),
+          nb::arg("friction_coefficient") = infinity, nb::arg("motion_scale"),
           nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
           nb::arg("boundary") = "periodic")
       .def(

@@ -4,7 +4,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
@@ -12,6 +11,7 @@
 #include <salebra/damping/tangential_contact.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
+#include "base/special_values.hpp"
 #include "bindings.hpp"
 #include "interop/arrays.hpp"
 #include "interop/citations.hpp"
@@ -21,7 +21,7 @@
 namespace salebra::python {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 void bind_tangential_contact(nb::module_& m) {
   nb::class_<TangentialContact> contact(
@@ -58,7 +58,7 @@ tangential_range : float
                 {friction_coefficient, merge_tolerance, table_tolerance, tangential_range});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction_coefficient") = infinite, nb::arg("merge_tolerance") = 0.0,
+          nb::arg("friction_coefficient") = infinity, nb::arg("merge_tolerance") = 0.0,
           nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
           nb::keep_alive<1, 2>())
       .def(
@@ -115,7 +115,7 @@ springs : int
             new (self) LawSprings(law, lowest, highest, {friction_coefficient, springs});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction_coefficient") = infinite,
+          nb::arg("friction_coefficient") = infinity,
           nb::arg("springs") = LawSpringsOptions().springs)
       .def("__len__", &LawSprings::size)
       .def_prop_ro("friction_coefficient", &LawSprings::friction_coefficient, "μ");
@@ -177,7 +177,7 @@ void bind_damping_of_trajectory(nb::module_& m) {
       [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,
          const std::optional<Values>& transverse) {
         cite({"popov2015"});
-        require(!transverse || friction_coefficient == infinite, "friction_coefficient",
+        require(!transverse || friction_coefficient == infinity, "friction_coefficient",
                 friction_coefficient,
                 "cannot be combined with transverse, whose slip is not followed; leave one out");
         return unlocked([&] {
@@ -186,7 +186,7 @@ void bind_damping_of_trajectory(nb::module_& m) {
         });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
-      nb::arg("friction_coefficient") = infinite, nb::arg("transverse") = nb::none(),
+      nb::arg("friction_coefficient") = infinity, nb::arg("transverse") = nb::none(),
       "Steady state of a periodic trajectory; exact for its straight steps. "
       "friction_coefficient: μ, infinite for full stick; transverse: y at the samples, m, of a "
       "motion in two directions without slip.");
