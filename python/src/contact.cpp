@@ -2,11 +2,13 @@
 // Bindings of material, normal contact and contact spots.
 #include "interop/contact.hpp"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -125,6 +127,30 @@ the period of the surface do not exist: a layer much thicker than the period is 
           "A transversely isotropic half-space whose axis is the normal of the surface; "
           "stiffnesses in Pa.")
       .def_static(
+          "anisotropic",
+          [](const std::array<std::array<double, 6>, 6>& stiffness,
+             const std::array<double, 3>& normal, const std::array<double, 3>& x) {
+            return Body::anisotropic(AnisotropicStiffness{stiffness}.of_surface(normal, x));
+          },
+          nb::arg("stiffness"), nb::arg("normal") = std::array<double, 3>{0, 0, 1},
+          nb::arg("x") = std::array<double, 3>{1, 0, 0},
+          "A half-space of any anisotropic material: 6 × 6 stiffnesses in Pa, in the order xx, yy, "
+          "zz, yz, xz, xy; normal and x: the outward normal of the surface and its x axis in the "
+          "axes of the stiffnesses.")
+      .def_static(
+          "cubic",
+          [](double c11, double c12, double c44, const std::array<double, 3>& normal,
+             const std::array<double, 3>& x) {
+            return Body::anisotropic(
+                AnisotropicStiffness::cubic(c11, c12, c44).of_surface(normal, x));
+          },
+          nb::arg("c11"), nb::arg("c12"), nb::arg("c44"),
+          nb::arg("normal") = std::array<double, 3>{0, 0, 1},
+          nb::arg("x") = std::array<double, 3>{1, 0, 0},
+          "A half-space of a cubic crystal; stiffnesses in Pa, and the outward normal of the "
+          "surface "
+          "and its x axis as directions of the crystal.")
+      .def_static(
           "tabulated",
           [](std::vector<double> wavenumber, std::vector<double> normal,
              std::vector<double> in_plane, std::vector<double> across, double uniform_normal,
@@ -150,18 +176,24 @@ the period of the surface do not exist: a layer much thicker than the period is 
           "'mean_plane' or 'base': what displacements are measured from.")
       .def(
           "compliance",
-          [](const Body& self, double wavenumber) {
-            const SurfaceCompliance c = self.compliance(wavenumber);
+          [](const Body& self, double wavenumber, std::optional<double> direction) {
+            const SurfaceCompliance c = direction
+                                            ? self.compliance(wavenumber * std::cos(*direction),
+                                                              wavenumber * std::sin(*direction))
+                                            : self.compliance(wavenumber);
             nb::typed<nb::dict, nb::str, double> found;
             found["normal"] = c.normal;
             found["in_plane"] = c.in_plane;
             found["across"] = c.across;
             found["coupling"] = c.coupling;
+            found["mixed"] = c.mixed;
             return found;
           },
-          nb::arg("wavenumber"),
+          nb::arg("wavenumber"), nb::arg("direction") = nb::none(),
           "Displacements per unit load of a wave, m/Pa: normal, in_plane (along the wave vector), "
-          "across (perpendicular to it) and their coupling; NaN if unknown.");
+          "across (perpendicular to it), mixed (in plane by a load across) and coupling (normal by "
+          "a load in plane); NaN if unknown. direction: of the wave vector, rad from x; without it "
+          "the mean over all directions.");
 }
 
 void bind_state(nb::module_& m) {

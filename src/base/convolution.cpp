@@ -79,7 +79,7 @@ struct Convolution2D<Real>::Passes {
   Complex* by_columns = nullptr;  // spectrum rows of other processes
   LargeArray<Complex> own_spectrum;
   struct Table {
-    // [column of this process][i = 0 … period_x/2], divided by 2·period_x·period_y
+    // [column of this process][i = 0 … table_rows() − 1], divided by 2·period_x·period_y
     std::shared_ptr<Real[]> values;
     Parity parity = Parity::even;
   };
@@ -177,7 +177,10 @@ struct Convolution2D<Real>::Passes {
     by_rows = memory;
     by_columns = memory + rows_size();
   }
-  Index table_rows() const { return shape.period_x / 2 + 1; }
+  // Number of frequencies of a column in the table of a symbol; the others mirror them.
+  Index table_rows(Parity parity = Parity::even) const {
+    return parity == Parity::by_inversion ? shape.period_x : shape.period_x / 2 + 1;
+  }
   // Number of pairs in a block of this process; with an odd number of rows, the last row has no
   // partner.
   Index pairs(Index block) const {
@@ -230,15 +233,15 @@ struct Convolution2D<Real>::Passes {
     Table& table = tables[static_cast<std::size_t>(a + b)];
     table.parity = parity;
     const Index first = my_columns().low, number = my_columns().low_count;
-    table.values = large_array<Real>(count(number * table_rows()));
+    const Index rows = table_rows(parity);
+    table.values = large_array<Real>(count(number * rows));
     const double in_all = 2 * static_cast<double>(shape.period_x * shape.period_y);
     parallel::for_slabs(
         number,
         [&](Index begin, Index end) {
           for (Index j = begin; j < end; ++j)
-            for (Index i = 0; i < table_rows(); ++i)
-              table.values[count(j * table_rows() + i)] =
-                  static_cast<Real>(symbol(i, first + j) / in_all);
+            for (Index i = 0; i < rows; ++i)
+              table.values[count(j * rows + i)] = static_cast<Real>(symbol(i, first + j) / in_all);
         },
         points());
   }
@@ -422,25 +425,27 @@ struct Convolution2D<Real>::Passes {
   }
 
   void multiply(Index j, Complex* numbers) const {
-    kernels.multiply(real(numbers), table_rows(), shape.period_x - table_rows(),
+    const Index rows = table_rows(tables[0].parity);
+    kernels.multiply(real(numbers), rows, shape.period_x - rows,
                      odd_along_x(tables[0].parity) ? Real(-1) : Real(1),
-                     tables[0].values.get() + j * table_rows());
+                     tables[0].values.get() + j * rows);
   }
 
   void multiply_pair(Index j, Complex* first, Complex* second) const {
     std::array<const Real*, 3> symbol;
     std::array<Real, 3> sign;
     for (std::size_t t = 0; t < 3; ++t) {
-      symbol[t] = tables[t].values.get() + j * table_rows();
+      symbol[t] = tables[t].values.get() + j * table_rows(tables[t].parity);
       sign[t] = odd_along_x(tables[t].parity) ? Real(-1) : Real(1);
     }
+    const bool whole = tables[0].parity == Parity::by_inversion;
     const auto at = [&](Index position, Index i, Real s0, Real s1, Real s2) {
       const Complex x = first[position], y = second[position];
       first[position] = s0 * symbol[0][i] * x + s1 * symbol[1][i] * y;
       second[position] = s1 * symbol[1][i] * x + s2 * symbol[2][i] * y;
     };
-    for (Index i = 0; i < table_rows(); ++i) at(i, i, 1, 1, 1);
-    for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
+    for (Index i = 0; i < table_rows(tables[0].parity); ++i) at(i, i, 1, 1, 1);
+    for (Index i = 1; i < shape.period_x - shape.period_x / 2 && !whole; ++i)
       at(shape.period_x - i, i, sign[0], sign[1], sign[2]);
     if (!imaginary(tables[0].parity)) return;
     for (Complex* numbers : {first, second})
@@ -452,7 +457,7 @@ struct Convolution2D<Real>::Passes {
   void apply(const Source& source, const Place& target, const Done& done) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
-        set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
+        set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, tables[0].parity);
     if (!by_rows) {
       own_spectrum = large_array<Complex>(spectrum_size());
       place_spectrum(own_spectrum.get());

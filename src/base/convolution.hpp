@@ -11,8 +11,8 @@
 namespace salebra {
 
 /// Symmetry of a kernel when x → −x or y → −y: even in x and y, odd in x and y, odd in x only, or
-/// odd in y only.
-enum class Parity { even, odd, odd_along_x, odd_along_y };
+/// odd in y only. by_inversion: even only if both change together.
+enum class Parity { even, odd, odd_along_x, odd_along_y, by_inversion };
 
 /// Convolution of real fields x_b with real kernels K_ab, by one real Fourier transform forward and
 /// one backward:
@@ -24,7 +24,8 @@ enum class Parity { even, odd, odd_along_x, odd_along_y };
 /// transformed, multiplied by the symbols and transformed back. The result has the same bits for
 /// every thread count. An object may be used by one thread at a time. Memory during use:
 /// sizeof(Real) bytes for each component and each of nx·period_y points, (2 − 1/P) times as much
-/// with P processes, plus a quarter of sizeof(Real) for each symbol and each point of the period.
+/// with P processes, plus a quarter of sizeof(Real) for each symbol and each point of the period, half of it by
+/// inversion.
 template <class Real>
 class Convolution2D {
  public:
@@ -35,7 +36,8 @@ class Convolution2D {
   /// Fourier transform of one kernel K(a, b), the value at a distance of (a, b) points: Σ_ab K(a,
   /// b) exp(−2πi(ia/period_x + jb/period_y)) for 0 <= i <= period_x/2, 0 <= j <= period_y/2. For a
   /// kernel that is odd along one axis the transform is imaginary, and the symbol is 1/i times the
-  /// transform. The kernel's Parity gives the symbol at negative i and j.
+  /// transform. The kernel's Parity gives the symbol at negative i and j; by_inversion, the symbol is
+  /// asked for 0 <= i < period_x, where i and i − period_x are one frequency.
   using Symbol = std::function<double(Index i, Index j)>;
 
   explicit Convolution2D(const Shape& shape, int components = 1);
@@ -53,7 +55,7 @@ class Convolution2D {
   const Shape& shape() const;
   /// Sets the symbol of the kernel K_ab = K_ba. Symbols are zero until set. `symbol` is called from
   /// several threads. A kernel that is odd along one axis requires two components, and then all
-  /// kernels must be odd along one axis.
+  /// kernels must be odd along one axis; likewise all kernels are by_inversion or none is.
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
 
   /// Makes apply() keep its spectrum in the given memory, which must have spectrum_bytes() bytes

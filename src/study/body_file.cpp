@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a linear body from a TOML file.
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/study/body_file.hpp>
@@ -48,12 +51,38 @@ Body read_graded(TomlTable table) {
   return table.located([&] { return Body::graded(body); });
 }
 
+std::array<double, 3> read_direction(TomlTable& table, const char* key) {
+  const std::vector<double> given = table.values(key, dimensionless);
+  table.check(given.size() == 3, key, "must be three numbers, such as [1, 1, 0]");
+  return {given[0], given[1], given[2]};
+}
+
 Body read_anisotropic(TomlTable table) {
   const auto modulus = [&](const char* key) { return table.required_quantity(key, pressure); };
-  const TransverseStiffness stiffness{modulus("c11"), modulus("c33"), modulus("c13"),
-                                      modulus("c44"), modulus("c66")};
+  const bool matrix = table.has("stiffness");
+  if (!matrix && !table.has("c12")) {
+    const TransverseStiffness stiffness{modulus("c11"), modulus("c33"), modulus("c13"),
+                                        modulus("c44"), modulus("c66")};
+    table.require_no_other_keys();
+    return table.located([&] { return Body::transversely_isotropic(stiffness); });
+  }
+  AnisotropicStiffness stiffness;
+  if (matrix) {
+    const std::vector<double> rows = table.values("stiffness", pressure);
+    table.check(rows.size() == 36, "stiffness",
+                fmt::format("has {} numbers; give the 6 rows of 6 as one list of 36, in the order "
+                            "xx, yy, zz, yz, xz, xy",
+                            rows.size()));
+    for (std::size_t k = 0; k < rows.size(); ++k) stiffness.c[k / 6][k % 6] = rows[k];
+  } else {
+    stiffness = AnisotropicStiffness::cubic(modulus("c11"), modulus("c12"), modulus("c44"));
+  }
+  if (table.has("normal") || table.has("x")) {
+    const auto normal = read_direction(table, "normal"), x = read_direction(table, "x");
+    stiffness = table.located([&] { return stiffness.of_surface(normal, x); });
+  }
   table.require_no_other_keys();
-  return table.located([&] { return Body::transversely_isotropic(stiffness); });
+  return table.located([&] { return Body::anisotropic(stiffness); });
 }
 
 PronySeries read_relaxation(std::vector<TomlTable> tables) {

@@ -32,6 +32,9 @@ Body body_of(int number) {
       return Body::layered({{0.02 * side, 10e9, 0.2}}, {1e9, 0.3});
     case 3:
       return Body::graded({.modulus = 1e9, .depth = 0.1 * side, .exponent = 0.4, .poisson = 0.3});
+    case 4:  // a cubic crystal, askew
+      return Body::anisotropic(
+          AnisotropicStiffness::cubic(3e9, 2.4e9, 1.6e9).of_surface({1, 1, 0}, {1, -1, 2}));
     default:
       return Body::transversely_isotropic(
           {.c11 = 3e9, .c33 = 1.5e9, .c13 = 0.8e9, .c44 = 0.4e9, .c66 = 1e9});
@@ -76,7 +79,7 @@ TEST_CASE("A material has the losses of its half-space as a body", "[body]") {
 }
 
 TEST_CASE("The loss on a body by contacts, by quadrature and by simulation", "[body]") {
-  const int number = GENERATE(0, 1, 2, 3, 4);
+  const int number = GENERATE(0, 1, 2, 3, 4, 5);
   const Body body = body_of(number);
   const Surface surface = rough_surface({48, 48, side, side}, {.seed = 2});
   const double pressure = pressure_of(surface, body);

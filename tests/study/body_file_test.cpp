@@ -60,6 +60,36 @@ TEST_CASE("A file describes the body that the library makes", "[body_file]") {
         Body::transversely_isotropic({161e9, 61e9, 50e9, 38.3e9, 63.4e9}).compliance(q).normal);
 }
 
+TEST_CASE("A file describes crystals by constants or by all stiffnesses", "[body_file]") {
+  const BodyFile file;
+  const std::string cube = "[anisotropic]\nc11 = \"166GPa\"\nc12 = \"64GPa\"\nc44 = \"80GPa\"\n",
+                    cut = "normal = [1, 1, 0]\nx = [0, 0, 1]\n";
+  const auto silicon = AnisotropicStiffness::cubic(166e9, 64e9, 80e9);
+  const auto at = [](const Body& body) { return body.compliance(1e5, 3e5).normal; };
+  CHECK(at(file.read(cube)) == at(Body::anisotropic(silicon)));
+  CHECK(at(file.read(cube + cut)) ==
+        at(Body::anisotropic(silicon.of_surface({1, 1, 0}, {0, 0, 1}))));
+  CHECK(at(file.read(cube)) != at(file.read(cube + cut)));
+  std::string rows = "[anisotropic]\nstiffness = [";
+  for (const auto& row : silicon.c) {
+    for (const double value : row) rows += std::to_string(value / 1e9) + "e9, ";
+    rows += "\n  ";
+  }
+  CHECK(at(file.read(rows + "]\n" + cut)) == at(file.read(cube + cut)));
+
+  using Catch::Contains;
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nstiffness = [1, 2, 3]\n"),
+                    Contains(":2:") && Contains("3 numbers"));
+  CHECK_THROWS_WITH(file.read(rows + "]\nc11 = 1\n"), Contains("c11"));
+  CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1, 0]\n"), Contains("x"));
+  CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1]\nx = [0, 0, 1]\n"),
+                    Contains(":5:") && Contains("three numbers"));
+  CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1, 0]\nx = [1, 0, 0]\n"),
+                    Contains(":6:") && Contains("perpendicular"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 2\nc12 = 3\nc44 = 1\n"),
+                    Contains("stiffness") && Contains("positive definite"));
+}
+
 TEST_CASE("A file of a body names each mistake with its line", "[body_file]") {
   const BodyFile file;
   using Catch::Contains;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface responses of linear bodies: half-spaces, layers, graded and transversely isotropic
-// half-spaces, tables.
+// Surface responses of linear bodies: half-spaces, layers, graded and anisotropic half-spaces,
+// tables.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -11,6 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/body.hpp>
 
+#include "anisotropic.hpp"
 #include "base/checksum.hpp"
 #include "base/numerics/hermite.hpp"
 #include "base/special_values.hpp"
@@ -28,7 +29,8 @@ void require_finite_positive(double value, const char* name) {
 }
 
 SurfaceCompliance operator*(double factor, const SurfaceCompliance& c) {
-  return {factor * c.normal, factor * c.in_plane, factor * c.across, factor * c.coupling};
+  return {factor * c.normal, factor * c.in_plane, factor * c.across, factor * c.coupling,
+          factor * c.mixed};
 }
 
 // q times the response of a half-space, 1/Pa, which does not depend on q.
@@ -39,7 +41,8 @@ SurfaceCompliance times_wave_number(const ElasticBody& body) {
 
 SurfaceCompliance sum(const SurfaceCompliance& first, const SurfaceCompliance& second) {
   return {first.normal + second.normal, first.in_plane + second.in_plane,
-          first.across + second.across, first.coupling - second.coupling};
+          first.across + second.across, first.coupling - second.coupling,
+          first.mixed + second.mixed};
 }
 
 // x cosh x − sinh x times e^−x, without the cancellation at small x.
@@ -108,6 +111,12 @@ struct Body::Parts {
   std::optional<Material> material = {};
   bool tangential = true;
   Datum datum = Datum::mean_plane;
+  // Of a wave vector, if its direction matters; `response` is then the mean over the directions.
+  std::function<SurfaceCompliance(double qx, double qy)> directional = {};
+
+  SurfaceCompliance at(double qx, double qy) const {
+    return directional ? directional(qx, qy) : response(std::hypot(qx, qy));
+  }
 };
 
 Body::Body(Parts parts) : parts_(std::make_shared<const Parts>(std::move(parts))) {}
@@ -199,6 +208,16 @@ Body Body::transversely_isotropic(const TransverseStiffness& stiffness) {
   return Body({.response = [=](double q) { return 1 / q * at_one; }});
 }
 
+Body Body::anisotropic(const AnisotropicStiffness& stiffness) {
+  const auto times_q = std::make_shared<const detail::AngularResponse>(stiffness);
+  return Body({.response = [=](double q) { return 1 / q * times_q->mean(); },
+               .directional =
+                   [=](double qx, double qy) {
+                     const double q = std::hypot(qx, qy);
+                     return 1 / q * times_q->along(qx / q, qy / q);
+                   }});
+}
+
 Body Body::tabulated(const ComplianceTable& table) {
   const std::vector<double>& q = table.wavenumber;
   require(q.size() >= 4, "wavenumber", q.size(), "values given; give at least 4");
@@ -248,12 +267,14 @@ Body Body::tabulated(const ComplianceTable& table) {
 Body Body::pair(const Body& first, const Body& second) {
   require(first.datum() == second.datum(), "datum", name_of(second.datum()),
           "differs from that of the first body; measure both from the same");
-  const Parts &a = *first.parts_, &b = *second.parts_;
-  return Body({.response = [one = a.response,
-                            other = b.response](double q) { return sum(one(q), other(q)); },
-               .uniform = sum(a.uniform, b.uniform),
-               .tangential = a.tangential && b.tangential,
-               .datum = a.datum});
+  const auto a = first.parts_, b = second.parts_;
+  Parts parts{.response = [=](double q) { return sum(a->response(q), b->response(q)); },
+              .uniform = sum(a->uniform, b->uniform),
+              .tangential = a->tangential && b->tangential,
+              .datum = a->datum};
+  if (a->directional || b->directional)
+    parts.directional = [=](double qx, double qy) { return sum(a->at(qx, qy), b->at(qx, qy)); };
+  return Body(std::move(parts));
 }
 
 Body Body::measured_from(Datum datum) const {
@@ -278,6 +299,14 @@ SurfaceCompliance Body::compliance(double wavenumber) const {
   return parts_->datum == Datum::base ? parts_->uniform : SurfaceCompliance{};
 }
 
+SurfaceCompliance Body::compliance(double qx, double qy) const {
+  const double q = std::hypot(qx, qy);
+  return parts_->directional && q > 0 && std::isfinite(q) ? parts_->directional(qx, qy)
+                                                          : compliance(q);
+}
+
+bool Body::is_directional() const { return parts_->directional != nullptr; }
+
 bool Body::has_tangential_response() const { return parts_->tangential; }
 
 const std::optional<Material>& Body::half_space_material() const { return parts_->material; }
@@ -285,15 +314,19 @@ const std::optional<Material>& Body::half_space_material() const { return parts_
 std::string Body::fingerprint() const {
   if (parts_->material) return {};
   std::string text(name_of(datum()));
-  for (int k = 0; k <= 40; ++k) {
+  const auto add = [&](double q, double angle) {
     SurfaceCompliance one{unknown, unknown, unknown, unknown};
     try {
-      one = compliance(2e9 * pi * std::pow(10, -k / 4.0));
+      one = compliance(q * std::cos(angle), q * std::sin(angle));
     } catch (const InvalidInput&) {
       // A table ends at this wave.
     }
     text += fmt::format(" {:.8e} {:.8e} {:.8e}", one.normal, one.in_plane, one.across);
-  }
+    // Without the rounding of what is zero by symmetry.
+    if (is_directional()) text += fmt::format(" {:.8f}", one.mixed / one.normal);
+  };
+  for (int k = 0; k <= 40; ++k) add(2e9 * pi * std::pow(10, -k / 4.0), 0);
+  for (int k = 1; k < 8 && is_directional(); ++k) add(1e6, k * pi / 8);
   return detail::Checksum(text).digits();
 }
 

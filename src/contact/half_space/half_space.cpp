@@ -117,11 +117,24 @@ std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel,
 
 struct WaveVector {
   double x, y, length;
+  // i may also be given as nx − i, for the frequency −i.
   WaveVector(const Grid2D& grid, Index i, Index j)
-      : x(2 * pi * static_cast<double>(i) / grid.lx),
+      : x(2 * pi * static_cast<double>(2 * i > grid.nx ? i - grid.nx : i) / grid.lx),
         y(2 * pi * static_cast<double>(j) / grid.ly),
         length(std::hypot(x, y)) {}
 };
+
+// The symbol of a body on a periodic grid, from a number at a wave vector that it has at the opposite
+// one too. A mode at the Nyquist frequency of x or y is its own mirror image, so that the numbers of
+// both are averaged there.
+template <class Number>
+Convolution2D<double>::Symbol symbol_by_inversion(const Grid2D& grid, const Number& number) {
+  return [=](Index i, Index j) {
+    const WaveVector q(grid, i, j);
+    const bool own_image = 2 * i == grid.nx || 2 * j == grid.ny;
+    return own_image ? (number(q.x, q.y) + number(-q.x, q.y)) / 2 : number(q.x, q.y);
+  };
+}
 
 }  // namespace
 
@@ -199,10 +212,15 @@ double reference_modulus(const Body& body, const Grid2D& grid) {
 
 namespace {
 
-// A table of a body need not reach beyond the longest wave of the grid.
-double wave_of(const Grid2D& grid, double q) {
-  return std::max(q, 2 * pi / std::max(grid.lx, grid.ly));
-}
+// A wave vector, lengthened to that of the longest wave of the grid: a table of a body need not reach
+// further.
+struct WaveOfGrid {
+  double x, y;
+  WaveOfGrid(const Grid2D& grid, double qx, double qy) {
+    const double factor = std::max(1.0, 2 * pi / std::max(grid.lx, grid.ly) / std::hypot(qx, qy));
+    x = factor * qx, y = factor * qy;
+  }
+};
 
 }  // namespace
 
@@ -213,19 +231,26 @@ double cell_compliance(const Grid2D& grid, const NormalResponse& response) {
   double sum = 0;
   for (int a = 0; a < samples; ++a)
     for (int b = 0; b < samples; ++b)
-      sum += response.compliance(
-          wave_of(grid, pi / samples * std::hypot((a + 0.5) / grid.dx(), (b + 0.5) / grid.dy())));
+      for (const int side : {-1, 1}) {
+        const WaveOfGrid q(grid, side * pi / samples * (a + 0.5) / grid.dx(),
+                           pi / samples * (b + 0.5) / grid.dy());
+        sum += response.compliance(q.x, q.y) / 2;
+      }
   return sum / (samples * samples);
 }
 
 InverseStencil inverse_stencil(const Grid2D& grid, const NormalResponse& response) {
   if (!response.body) return InverseStencil(grid);
-  return InverseStencil(grid, [&](double q) { return 1 / response.compliance(wave_of(grid, q)); });
+  return InverseStencil(grid, [&](double qx, double qy) {
+    const WaveOfGrid q(grid, qx, qy);
+    return 1 / response.compliance(q.x, q.y);
+  });
 }
 
 InverseStencil tangential_inverse_stencil(const Grid2D& grid, const Body& body) {
-  return InverseStencil(grid, [&](double q) {
-    const SurfaceCompliance c = body.compliance(wave_of(grid, q));
+  return InverseStencil(grid, [&](double qx, double qy) {
+    const WaveOfGrid q(grid, qx, qy);
+    const SurfaceCompliance c = body.compliance(q.x, q.y);
     return 2 / (c.in_plane + c.across);
   });
 }
@@ -237,9 +262,14 @@ NormalSymbol normal_symbol(const Grid2D& grid, const NormalResponse& response, B
   require_positive(contact_modulus, "contact_modulus");
   const auto shape = shape_of<double>(grid, boundary);
   NormalSymbol symbol{shape.period_x, shape.period_y, {}, {}};
-  if (response.body) {
+  if (response.body && response.body->is_directional()) {
+    symbol.parity = Parity::by_inversion;
+    symbol.value = symbol_by_inversion(
+        grid, [=](double qx, double qy) { return response.compliance(qx, qy); });
+  } else if (response.body) {
     symbol.value = [=](Index i, Index j) {
-      return response.compliance(WaveVector(grid, i, j).length);
+      const WaveVector q(grid, i, j);
+      return response.compliance(q.x, q.y);
     };
   } else if (boundary == Boundary::periodic) {
     const double x = 2 * pi / grid.lx, y = 2 * pi / grid.ly;
@@ -267,7 +297,7 @@ template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,
                                       const RowPartition& rows) {
   Convolution2D<Real> compliance({grid.nx, grid.ny, symbol.period_x, symbol.period_y}, 1, rows);
-  compliance.set_symbol(0, 0, symbol.value);
+  compliance.set_symbol(0, 0, symbol.value, symbol.parity);
   return compliance;
 }
 
@@ -364,6 +394,31 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Body& body,
                                           const Communicator& communicator) {
   Convolution2D<Real> compliance(shape_of<Real>(grid, Boundary::periodic), 2,
                                  RowPartition(communicator, grid.nx));
+  if (body.is_directional()) {
+    const auto set = [&](int a, int b, const auto& element) {
+      compliance.set_symbol(
+          a, b,
+          symbol_by_inversion(grid,
+                              [=](double qx, double qy) {
+                                const double square = qx * qx + qy * qy;
+                                const SurfaceCompliance c = body.compliance(qx, qy);
+                                if (square == 0) return a == b ? c.in_plane : 0.0;
+                                return element(c, qx * qx / square, qy * qy / square,
+                                               qx * qy / square);
+                              }),
+          Parity::by_inversion);
+    };
+    set(0, 0, [](const SurfaceCompliance& c, double xx, double yy, double xy) {
+      return c.in_plane * xx + c.across * yy - 2 * c.mixed * xy;
+    });
+    set(1, 1, [](const SurfaceCompliance& c, double xx, double yy, double xy) {
+      return c.in_plane * yy + c.across * xx + 2 * c.mixed * xy;
+    });
+    set(0, 1, [](const SurfaceCompliance& c, double xx, double yy, double xy) {
+      return (c.in_plane - c.across) * xy + c.mixed * (xx - yy);
+    });
+    return compliance;
+  }
   const auto along = [=](double component, double length) {
     const SurfaceCompliance c = body.compliance(length);
     return length == 0
@@ -396,13 +451,28 @@ double cell_compliance(const Grid2D& grid, double contact_modulus) {
   return 2 / contact_modulus * integral / (4 * qx * qy);
 }
 
-InverseStencil::InverseStencil(const Grid2D& grid)
-    : InverseStencil(grid, [](double q) { return q / 2; }) {}
+namespace {
 
-InverseStencil::InverseStencil(const Grid2D& grid, const std::function<double(double q)>& inverse) {
-  // The symbol is sampled on a periodic grid of 64 × 64 cells, which is far larger than the
-  // stencil and takes negligible time.
-  constexpr int torus = 64;
+// The symbol of a stencil is sampled on a periodic grid of 64 × 64 cells, which is far larger than
+// the stencil and takes negligible time.
+constexpr int torus = 64;
+
+}  // namespace
+
+InverseStencil::InverseStencil(const Grid2D& grid) {
+  set_weights(grid, [](double x, double y) { return pi / torus * std::hypot(x, y); });
+}
+
+InverseStencil::InverseStencil(const Grid2D& grid,
+                               const std::function<double(double qx, double qy)>& symbol) {
+  set_weights(grid, [&](double x, double y) {
+    const double qx = 2 * pi / torus * x, qy = 2 * pi / torus * y;
+    return (symbol(qx, qy) + symbol(-qx, qy)) / 2;
+  });
+}
+
+void InverseStencil::set_weights(const Grid2D& grid,
+                                 const std::function<double(double x, double y)>& inverse) {
   std::array<double, torus> cosine;
   for (int k = 0; k < torus; ++k)
     cosine[static_cast<std::size_t>(k)] = std::cos(2 * pi * k / torus);
@@ -413,10 +483,9 @@ InverseStencil::InverseStencil(const Grid2D& grid, const std::function<double(do
   for (int a = 0; a < torus; ++a)
     for (int b = 0; b < torus; ++b)
       symbol[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] =
-          a == 0 && b == 0 ? 0
-                           : inverse(2 * (pi / torus *
-                                          std::hypot(std::min(a, torus - a) / grid.dx(),
-                                                     std::min(b, torus - b) / grid.dy())));
+          a == 0 && b == 0
+              ? 0
+              : inverse(std::min(a, torus - a) / grid.dx(), std::min(b, torus - b) / grid.dy());
   weights_.fill(0);
   for (int i = 0; i <= radius; ++i)
     for (int a = 0; a < torus; ++a)

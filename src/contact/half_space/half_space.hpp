@@ -78,9 +78,9 @@ class InverseStencil {
   /// Stencil of the half-space; depends only on dx and dy. The weights are symmetric, and their Fourier
   /// transform is positive.
   explicit InverseStencil(const Grid2D& grid);
-  /// Stencil of another symbol of the inverse, as a function of the wave number q > 0; at q = 0 the
-  /// symbol is 0.
-  InverseStencil(const Grid2D& grid, const std::function<double(double q)>& symbol);
+  /// Stencil of another symbol of the inverse, as a function of the wave vector; at q = 0 the symbol is
+  /// 0. The weights are those of the mean of (q_x, q_y) and (−q_x, q_y).
+  InverseStencil(const Grid2D& grid, const std::function<double(double qx, double qy)>& symbol);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius, 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
   /// Weights of all (i, j), row by row.
@@ -91,6 +91,8 @@ class InverseStencil {
              Field& z) const;
 
  private:
+  /// inverse: the symbol, even in x and y, at the wave vector (x, y)·2π/(number of samples).
+  void set_weights(const Grid2D& grid, const std::function<double(double x, double y)>& inverse);
   static std::size_t index(int i, int j) {
     return static_cast<std::size_t>((i + radius) * width + j + radius);
   }

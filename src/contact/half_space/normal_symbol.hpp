@@ -24,9 +24,11 @@ struct NormalResponse {
   // The response of a body on a grid, in units of its cells and of reference_modulus().
   NormalResponse(const Body& pressed, const Grid2D& physical, bool with_uniform);
 
-  // The compliance of the body at a wave number in the units of the solve.
-  double compliance(double q) const {
-    return q > 0 || uniform ? body->compliance(q / cell).normal * modulus / cell : 0;
+  // The compliance of the body at a wave vector in the units of the solve.
+  double compliance(double qx, double qy) const {
+    return qx != 0 || qy != 0 || uniform
+               ? body->compliance(qx / cell, qy / cell).normal * modulus / cell
+               : 0;
   }
   bool operator==(const NormalResponse& other) const;
 };
@@ -61,6 +63,7 @@ struct NormalSymbol {
   std::function<Field(const RowPartition& indices,
                       const std::function<Index(Index index)>& column_at)>
       columns;
+  Parity parity = Parity::even;  // of the kernel
 };
 NormalSymbol normal_symbol(const Grid2D& grid, const NormalResponse& response, Boundary boundary,
                            const RowPartition& rows);

@@ -15,9 +15,9 @@ double pressure_scale(const Surface& surface, const Body& body) {
         for (Index i = 0; i < spectrum.grid.nx; ++i)
           for (Index k = begin; k < end; ++k) {
             const Index j = columns.begin() + k;
-            const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-            if (!(q > 0)) continue;
-            const double compliance = body.compliance(q).normal;
+            const double qx = spectrum.wavenumber_x(i), qy = spectrum.wavenumber_y(j);
+            if (qx == 0 && qy == 0) continue;
+            const double compliance = body.compliance(qx, qy).normal;
             of_block[0] += spectrum.multiplicity(j) * spectrum.psd(i, k) * spectrum.cell() /
                            (compliance * compliance);
           }

@@ -31,21 +31,20 @@ class Influence {
       for (Index n = 0; n < grid.ny; ++n) {
         const Index i = 2 * m > grid.nx ? m - grid.nx : m, j = 2 * n > grid.ny ? n - grid.ny : n;
         const double qx = 2 * pi * double(i) / grid.lx, qy = 2 * pi * double(j) / grid.ly;
-        const double square = qx * qx + qy * qy;
-        const SurfaceCompliance c = body.compliance(std::sqrt(square));
-        const double x = square > 0 ? qx * qx / square : 0.5;
-        const bool mirrored = 2 * m == grid.nx || 2 * n == grid.ny || square == 0;
-        const double cross = mirrored ? 0 : (c.in_plane - c.across) * qx * qy / square;
+        const bool mirrored = 2 * m == grid.nx || 2 * n == grid.ny;
+        const Eigen::Vector4d c =
+            mirrored ? ((response(body, qx, qy) + response(body, -qx, qy)) / 2).eval()
+                     : response(body, qx, qy);
         for (Index a = 0; a < grid.nx; ++a)
           for (Index b = 0; b < grid.ny; ++b) {
             const double wave = std::cos(2 * pi *
                                          (double(m * a % grid.nx) / double(grid.nx) +
                                           double(n * b % grid.ny) / double(grid.ny))) /
                                 static_cast<double>(grid.points());
-            normal_(a, b) += c.normal * wave;
-            xx_(a, b) += (c.across + (c.in_plane - c.across) * x) * wave;
-            yy_(a, b) += (c.across + (c.in_plane - c.across) * (1 - x)) * wave;
-            xy_(a, b) += cross * wave;
+            normal_(a, b) += c(0) * wave;
+            xx_(a, b) += c(1) * wave;
+            yy_(a, b) += c(2) * wave;
+            xy_(a, b) += c(3) * wave;
           }
       }
   }
@@ -59,6 +58,18 @@ class Influence {
   }
 
  private:
+  // Normal, and tangential xx, yy and xy.
+  static Eigen::Vector4d response(const Body& body, double qx, double qy) {
+    const SurfaceCompliance c = body.compliance(qx, qy);
+    const double square = qx * qx + qy * qy;
+    if (square == 0) return {c.normal, c.in_plane, c.in_plane, 0};
+    const double length = std::sqrt(square);
+    const Eigen::Vector2d along(qx / length, qy / length), across(-along.y(), along.x());
+    const Eigen::Matrix2d t = c.in_plane * along * along.transpose() +
+                              c.across * across * across.transpose() +
+                              c.mixed * (along * across.transpose() + across * along.transpose());
+    return {c.normal, t(0, 0), t(1, 1), t(0, 1)};
+  }
   Eigen::MatrixXd matrix(const std::vector<Index>& cells, const Field& kernel) const {
     const auto n = static_cast<Index>(cells.size());
     Eigen::MatrixXd result(n, n);
@@ -134,15 +145,26 @@ std::vector<Index> all_cells(const Grid2D& grid) {
   return cells_of(ContactSet::Constant(grid.nx, grid.ny, true));
 }
 
-// A rubber film and a stiff coating with cells of 1 µm, a graded body, and zinc.
+// A rubber film and a stiff coating with cells of 1 µm, a graded body, zinc, sodium cut and turned
+// askew, and wood on a film.
 const double cell = 1e-6;
 std::vector<Body> bodies() {
   const Body zinc = Body::transversely_isotropic({161e9, 61e9, 50e9, 38.3e9, 63.4e9});
+  const auto sodium = AnisotropicStiffness::cubic(7.4e9, 6.2e9, 4.2e9);
+  const auto wood = AnisotropicStiffness{{{{10e9, 0.5e9, 0.6e9, 0, 0, 0},
+                                           {0.5e9, 0.6e9, 0.4e9, 0, 0, 0},
+                                           {0.6e9, 0.4e9, 1.1e9, 0, 0, 0},
+                                           {0, 0, 0, 0.04e9, 0, 0},
+                                           {0, 0, 0, 0, 0.8e9, 0},
+                                           {0, 0, 0, 0, 0, 0.7e9}}}}
+                        .of_surface({0, 0, 1}, {3, 1, 0});
   return {Body::layered({{4 * cell, 3e9, 0.49}}),
           Body::layered({{0.5 * cell, 3e9, 0.5}, {2 * cell, 1e9, 0.4}}),
           Body::layered({{2 * cell, 600e9, 0.2}}, {70e9, 0.33}),
           Body::graded({3e9, 10 * cell, 0.5, 0.3}),
-          Body::pair(Body::layered({{cell, 3e9, 0.4}}, {70e9, 0.33}), zinc)};
+          Body::pair(Body::layered({{cell, 3e9, 0.4}}, {70e9, 0.33}), zinc),
+          Body::anisotropic(sodium.of_surface({1, 1, 1}, {1, 2, -3})),
+          Body::pair(Body::layered({{cell, 3e9, 0.4}}, {70e9, 0.33}), Body::anisotropic(wood))};
 }
 
 }  // namespace
@@ -152,7 +174,7 @@ TEST_CASE(
     "[body]") {
   const Grid2D grid{32, 24, 32 * cell, 24 * cell};
   const Surface surface = test::rough_surface(grid, {.rolloff = 2, .seed = 5});
-  const auto which = GENERATE(0u, 1u, 2u, 3u, 4u);
+  const auto which = GENERATE(0u, 1u, 2u, 3u, 4u, 5u, 6u);
   CAPTURE(which);
   const Body body = bodies()[which];
   const Influence influence(grid, body);
