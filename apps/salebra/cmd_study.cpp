@@ -8,6 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <tuple>
 
@@ -15,6 +16,7 @@
 #include "option_words.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "sensitivity_answer.hpp"
 #include "several_files.hpp"
 #include "study_command.hpp"
 #include "terminal.hpp"
@@ -325,6 +327,7 @@ void run_one(const StudyArguments& arguments, Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
                                       {arguments.shard.has_value(), "--shard"},
                                       {arguments.shard_seconds.has_value(), "--shard-seconds"},
+                                      {arguments.sensitivity, "--sensitivity"},
                                       {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   StudyConfiguration configuration;
@@ -344,7 +347,15 @@ void run_one(const StudyArguments& arguments, Session& session) {
       list.push_back(std::move(row));
       text += "\n" + damping_text(directions[k], other);
     }
-    return PointAnswer{std::move(json), text + (arguments.verbose ? details(result) : "")};
+    if (arguments.verbose) text += details(result);
+    if (arguments.sensitivity) {
+      const StudySensitivity found =
+          study_sensitivity(result.configuration, {.on_progress = session.progress()});
+      if (found.interrupted) throw Interrupted("study: interrupted");
+      json["sensitivity"] = sensitivity_json(found);
+      text += "\n" + sensitivity_text(found);
+    }
+    return PointAnswer{std::move(json), text};
   });
 }
 
@@ -432,6 +443,9 @@ void add_study_command(Program& program) {
   arguments->add_to(command, true);
   command.add_flag("--verbose", arguments->verbose,
                    "also print all models, how the law bends and how the mean converged");
+  command.add_flag("--sensitivity", arguments->sensitivity,
+                   "also compute how the results respond to the parameters and to each octave of "
+                   "wavelengths: d ln result/d ln parameter. Takes about twenty times as long");
 }
 
 }  // namespace salebra::cli

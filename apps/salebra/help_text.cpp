@@ -44,6 +44,17 @@ constexpr std::array descriptions{
                 "processes or machines share a study, and --merge puts the result together.\n\nNew "
                 "here? salebra init "
                 "writes a file to start with, --dry-run estimates time and memory."},
+    CommandHelp{
+        "design", start, "",
+        "Finds roughness, amplitude and other parameters of a study, within limits, for "
+        "which a result (damping_constant, normal_stiffness, ...) has a wanted value over a "
+        "range of forces. Judges the design on surfaces that the search did not use, and "
+        "says what binds and what hardly matters. The exit status is 1 if the target is "
+        "not met; the nearest design is printed.\n\nFILE:\n  study = \"study.toml\"\n  "
+        "[target]\n  output = \"damping_constant\"\n  value = \"10 N s/m\"\n  tolerance = "
+        "\"20%\"\n  force = [\"5N\", \"50N\"]\n  [free]\n  rms_height = [\"50nm\", "
+        "\"1um\"]\n  normal_amplitude = [\"1nm\", \"20nm\"]\n\nNext: salebra study "
+        "--sensitivity shows which parameters decide."},
     CommandHelp{"report", start, "",
                 "Makes one HTML page from the results of a study, with figures, tables and "
                 "settings. The page needs no network."},

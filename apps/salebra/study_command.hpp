@@ -38,8 +38,9 @@ struct StudyArguments {
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
-  bool verbose = false;  ///< only an option of `study`
-  int groups = 0;        ///< number of groups of processes; 0: one group
+  bool verbose = false;      ///< only an option of `study`
+  bool sensitivity = false;  ///< only an option of `study`
+  int groups = 0;            ///< number of groups of processes; 0: one group
 
   /// over_processes: whether several processes of salebra-mpi may compute the study, and whether it
   /// takes several surfaces.

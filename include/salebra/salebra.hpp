@@ -21,6 +21,8 @@
 #include <salebra/io/read_surface.hpp>
 #include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/force_curve_file.hpp>
+#include <salebra/study/design.hpp>
+#include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/filters.hpp>

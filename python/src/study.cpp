@@ -12,7 +12,9 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/study/configuration.hpp>
+#include <salebra/study/design.hpp>
 #include <salebra/study/parts.hpp>
+#include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_file.hpp>
 #include <salebra/study/study_solution.hpp>
@@ -416,6 +418,77 @@ progress : bool or callable
       nb::arg("file"), nb::arg("study"),
       "Whether the file is the complete result of this study, with all its surfaces, models and "
       "settings; False for any other file, or if there is none.");
+
+  described_class<OutputSensitivity>(m, "OutputSensitivity",
+                                     "How one result responds to a parameter, at each pressure.");
+  described_class<ParameterSensitivity>(m, "ParameterSensitivity",
+                                        "How the results respond to one parameter.");
+  described_class<StudySensitivity>(
+      m, "StudySensitivity",
+      "How the results of a study respond to its parameters and to bands of waves.")
+      .def(
+          "find",
+          [](const StudySensitivity& self, const std::string& parameter,
+             const std::string& output) -> std::optional<CurveOf<EnsembleMean>> {
+            const OutputSensitivity* found = self.find(parameter, output);
+            if (!found) return {};
+            return CurveOf<EnsembleMean>{"pressure", self.pressures, found->at_pressures, output};
+          },
+          nb::arg("parameter"), nb::arg("output"),
+          "d ln output/d ln parameter over the pressure; None if it is not known.")
+      .def("sentence", &StudySensitivity::sentence, nb::arg("output"), nb::arg("pressure"),
+           "Which waves decide a result at the pressure with this index.");
+  m.def(
+      "study_sensitivity",
+      [](const StudyConfiguration& configuration, double step, bool waves,
+         const ProgressArgument& progress) {
+        cite_study();
+        return interruptible(progress, [&](const Progress& told) {
+          return study_sensitivity(configuration,
+                                   {.step = step, .waves = waves, .on_progress = told});
+        });
+      },
+      nb::arg("configuration"), nb::kw_only(), nb::arg("step") = SensitivityOptions().step,
+      nb::arg("waves") = true, nb::arg("progress") = false,
+      R"(How the results of a study by boundary elements respond to its parameters, with 95 % intervals.
+
+The same surfaces are computed with each parameter θ multiplied by e^step and e^−step; d ln output/d ln θ is the difference of the logarithms
+of the means, over 2·step. The intervals are those over the surfaces and contain the noise of single cells.
+
+Parameters
+----------
+configuration : StudyConfiguration
+step : float
+    Change of ln θ to each side, 0.001 to 0.2.
+waves : bool
+    Also the amplitudes of each octave of wavelengths.
+progress : bool or callable
+)");
+  described_class<DesignedParameter>(m, "DesignedParameter", "A parameter of a design.");
+  described_class<DesignPoint>(m, "DesignPoint",
+                               "What a design gives at one force, on other surfaces.");
+  described_class<Design>(m, "Design",
+                          "Parameters for which a result is closest to a target at all its forces.");
+  m.def(
+      "design",
+      [](const std::filesystem::path& file, const ProgressArgument& progress) {
+        cite_study();
+        return interruptible(progress, [&](const Progress& told) {
+          return design(read_design_problem(file), told);
+        });
+      },
+      nb::arg("file"), nb::kw_only(), nb::arg("progress") = false,
+      R"(Finds parameters of a study for which a result has wanted values over a range of forces.
+
+Levenberg and Marquardt's method of GSL on the means over the surfaces, in the logarithms of the parameters between their limits. The design
+is judged on surfaces that the search did not use (`met`, `deviation`).
+
+Parameters
+----------
+file : str or os.PathLike
+    TOML file with the study, the target and the limits of the free parameters.
+progress : bool or callable
+)");
 
   described_class<Check>(m, "Check",
                          "One number that this installation computes, with the analytical value.");

@@ -28,7 +28,8 @@ Matrix contraction(const AnisotropicStiffness& stiffness, const Vector& a, const
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 3; ++j)
-        for (int l = 0; l < 3; ++l) sum(i, k) += a(j) * stiffness.c[voigt(i, j)][voigt(k, l)] * b(l);
+        for (int l = 0; l < 3; ++l)
+          sum(i, k) += a(j) * stiffness.c[voigt(i, j)][voigt(k, l)] * b(l);
   return sum;
 }
 
@@ -56,7 +57,8 @@ void validate(const AnisotropicStiffness& stiffness) {
 // period π and is smooth, so that the trapezoidal rule converges exponentially.
 Matrix compliance_along(const AnisotropicStiffness& stiffness, double direction) {
   const Vector along(std::cos(direction), std::sin(direction), 0), normal(0, 0, 1);
-  const Matrix q0 = contraction(stiffness, along, along), r0 = contraction(stiffness, along, normal),
+  const Matrix q0 = contraction(stiffness, along, along),
+               r0 = contraction(stiffness, along, normal),
                t0 = contraction(stiffness, normal, normal), both = r0 + r0.transpose();
   const auto integrand = [&](double angle) -> Matrix {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -80,7 +82,8 @@ Matrix compliance_along(const AnisotropicStiffness& stiffness, double direction)
     sum += between;
     if (converged) return (sum / (2 * points)).llt().solve(Matrix::Identity());
   }
-  throw InvalidInput("stiffness", "is of a material so close to instability that its response was not found");
+  throw InvalidInput("stiffness",
+                     "is of a material so close to instability that its response was not found");
 }
 
 }  // namespace
@@ -112,12 +115,12 @@ AnisotropicStiffness AnisotropicStiffness::of_surface(const std::array<double, 3
   // The blocks of the tensor between pairs of new axes, turned to the new axes themselves.
   for (int j = 0; j < 3; ++j)
     for (int l = 0; l < 3; ++l) {
-      const Matrix block = contraction(*this, axes[static_cast<std::size_t>(j)],
-                                       axes[static_cast<std::size_t>(l)]);
+      const Matrix block =
+          contraction(*this, axes[static_cast<std::size_t>(j)], axes[static_cast<std::size_t>(l)]);
       for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k)
-          turned.c[voigt(i, j)][voigt(k, l)] = axes[static_cast<std::size_t>(i)].dot(
-              block * axes[static_cast<std::size_t>(k)]);
+          turned.c[voigt(i, j)][voigt(k, l)] =
+              axes[static_cast<std::size_t>(i)].dot(block * axes[static_cast<std::size_t>(k)]);
     }
   return turned;
 }
@@ -151,7 +154,8 @@ AngularResponse::AngularResponse(const AnisotropicStiffness& stiffness) {
     while (terms_.size() > 1 && size(terms_.back()) <= rounding) terms_.pop_back();
     return;
   }
-  throw InvalidInput("stiffness", "is of a material so anisotropic that its response was not found");
+  throw InvalidInput("stiffness",
+                     "is of a material so anisotropic that its response was not found");
 }
 
 SurfaceCompliance AngularResponse::mean() const {

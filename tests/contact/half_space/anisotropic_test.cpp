@@ -77,7 +77,8 @@ Matrix3 column(const AnisotropicStiffness& stiffness, double direction) {
       const double one = a == b;
       energy.block(3 * a, 3 * b, 3, 3) =
           (one * q + squares(a, b) * t).cast<std::complex<double>>() +
-          i * (derivative(a, b) * r.transpose() - derivative(b, a) * r).cast<std::complex<double>>();
+          i * (derivative(a, b) * r.transpose() - derivative(b, a) * r)
+                  .cast<std::complex<double>>();
     }
   }
   return (load.transpose() * energy.partialPivLu().solve(load)).real();
@@ -91,8 +92,8 @@ Matrix3 stroh(const AnisotropicStiffness& stiffness, double direction) {
   const double scale = t.norm();
   Matrix6 matrix;
   const Matrix3 inverse = t.inverse();
-  matrix << -inverse * r.transpose(), inverse * scale,
-      (r * inverse * r.transpose() - q) / scale, -r * inverse;
+  matrix << -inverse * r.transpose(), inverse * scale, (r * inverse * r.transpose() - q) / scale,
+      -r * inverse;
   const Eigen::EigenSolver<Matrix6> solver(matrix);
   Eigen::Matrix3cd a, b;
   int found = 0;
@@ -121,8 +122,10 @@ TEST_CASE("An anisotropic half-space has the response of Stroh's eigenvectors an
   const auto silicon = AnisotropicStiffness::cubic(166e9, 64e9, 80e9);
   const auto which = GENERATE(0, 1, 2);
   const AnisotropicStiffness stiffness =
-      which == 0 ? triclinic() : silicon.of_surface(which == 1 ? std::array{1., 1., 0.} : std::array{1., 2., 3.},
-                                                    which == 1 ? std::array{1., -1., 2.} : std::array{3., 0., -1.});
+      which == 0
+          ? triclinic()
+          : silicon.of_surface(which == 1 ? std::array{1., 1., 0.} : std::array{1., 2., 3.},
+                               which == 1 ? std::array{1., -1., 2.} : std::array{3., 0., -1.});
   const Body body = Body::anisotropic(stiffness);
   for (int k = 0; k < 20; ++k) {
     const double direction = 0.1 + pi * k / 20;
@@ -133,7 +136,8 @@ TEST_CASE("An anisotropic half-space has the response of Stroh's eigenvectors an
     check_elements(found, elements(column(stiffness, direction), direction), 1e-8);
     CHECK(found.normal > 0);
     // Opposite waves respond alike, and short ones stiffly.
-    const SurfaceCompliance opposite = body.compliance(-2 * std::cos(direction), -2 * std::sin(direction));
+    const SurfaceCompliance opposite =
+        body.compliance(-2 * std::cos(direction), -2 * std::sin(direction));
     CHECK(opposite.normal == Approx(found.normal / 2).epsilon(1e-14));
     CHECK(opposite.mixed == Approx(found.mixed / 2).epsilon(1e-12).margin(1e-14 * found.normal));
   }
@@ -142,9 +146,10 @@ TEST_CASE("An anisotropic half-space has the response of Stroh's eigenvectors an
 TEST_CASE("Materials with planes of symmetry have their closed forms", "[body]") {
   SECTION("isotropic: double eigenvalues") {
     const double poisson = GENERATE(-0.5, 0.0, 0.3, 0.4999), young = 210e9;
-    const double shear = young / (2 * (1 + poisson)), lame = 2 * shear * poisson / (1 - 2 * poisson);
-    const Body body =
-        Body::anisotropic(AnisotropicStiffness::cubic(lame + 2 * shear, lame, shear).of_surface({1, 2, 3}, {2, -1, 0}));
+    const double shear = young / (2 * (1 + poisson)),
+                 lame = 2 * shear * poisson / (1 - 2 * poisson);
+    const Body body = Body::anisotropic(AnisotropicStiffness::cubic(lame + 2 * shear, lame, shear)
+                                            .of_surface({1, 2, 3}, {2, -1, 0}));
     const Body expected = Body::half_space({young, poisson});
     // Near incompressibility the stiffnesses themselves carry an error of 1e-16·λ/µ.
     const double tolerance = poisson > 0.49 ? 1e-10 : 1e-13;
@@ -153,7 +158,8 @@ TEST_CASE("Materials with planes of symmetry have their closed forms", "[body]")
       check_elements(body.compliance(3e5 * std::cos(direction), 3e5 * std::sin(direction)),
                      {half.normal, half.in_plane, half.across, 0}, tolerance);
     }
-    CHECK(body.compliance(3e5).normal == Approx(expected.compliance(3e5).normal).epsilon(tolerance));
+    CHECK(body.compliance(3e5).normal ==
+          Approx(expected.compliance(3e5).normal).epsilon(tolerance));
   }
   SECTION("transversely isotropic about the normal") {
     const TransverseStiffness c = GENERATE(TransverseStiffness{16.1, 6.1, 5.0, 3.83, 6.34},
@@ -176,7 +182,8 @@ TEST_CASE("Materials with planes of symmetry have their closed forms", "[body]")
       const double c11 = wood(axis, axis), c33 = wood(2, 2), c13 = wood(axis, 2),
                    c55 = wood(4 - axis, 4 - axis), c44 = wood(3 + axis, 3 + axis), c66 = wood(5, 5);
       const double root = std::sqrt(c11 * c33);
-      const double normal = 1 / ((c13 + root) * std::sqrt(c55 * (root - c13) / (c11 * (c13 + 2 * c55 + root))));
+      const double normal =
+          1 / ((c13 + root) * std::sqrt(c55 * (root - c13) / (c11 * (c13 + 2 * c55 + root))));
       check_elements(body.compliance(1 - axis, axis),
                      {normal, normal * std::sqrt(c33 / c11), 1 / std::sqrt(c44 * c66), 0}, 1e-12);
     }
@@ -187,12 +194,14 @@ TEST_CASE("A turned surface has a turned response, and the mean of its direction
   const AnisotropicStiffness stiffness = triclinic();
   const Body body = Body::anisotropic(stiffness);
   const double turn = 0.4;
-  const Body turned = Body::anisotropic(stiffness.of_surface({0, 0, 2}, {std::cos(turn), std::sin(turn), 0}));
+  const Body turned =
+      Body::anisotropic(stiffness.of_surface({0, 0, 2}, {std::cos(turn), std::sin(turn), 0}));
   double sum = 0;
   constexpr int directions = 200;
   for (int k = 0; k < directions; ++k) {
     const double direction = pi * k / directions;
-    const SurfaceCompliance here = body.compliance(std::cos(direction + turn), std::sin(direction + turn));
+    const SurfaceCompliance here =
+        body.compliance(std::cos(direction + turn), std::sin(direction + turn));
     check_elements(turned.compliance(std::cos(direction), std::sin(direction)),
                    {here.normal, here.in_plane, here.across, here.mixed}, 1e-12);
     sum += here.normal / directions;
@@ -212,8 +221,10 @@ TEST_CASE("Stiffnesses that no material has are refused", "[body]") {
   CHECK_THROWS_WITH(Body::anisotropic(skew), Contains("stiffness") && Contains("symmetric"));
   CHECK_THROWS_WITH(Body::anisotropic(AnisotropicStiffness::cubic(60e9, 64e9, 80e9)),
                     Contains("stiffness") && Contains("positive definite"));
-  CHECK_THROWS_WITH(Body::anisotropic(AnisotropicStiffness::cubic(166e9, NAN, 80e9)), Contains("finite"));
+  CHECK_THROWS_WITH(Body::anisotropic(AnisotropicStiffness::cubic(166e9, NAN, 80e9)),
+                    Contains("finite"));
   const auto silicon = AnisotropicStiffness::cubic(166e9, 64e9, 80e9);
-  CHECK_THROWS_WITH(silicon.of_surface({0, 0, 1}, {1, 0, 1}), Contains("x") && Contains("perpendicular"));
+  CHECK_THROWS_WITH(silicon.of_surface({0, 0, 1}, {1, 0, 1}),
+                    Contains("x") && Contains("perpendicular"));
   CHECK_THROWS_WITH(silicon.of_surface({0, 0, 0}, {1, 0, 0}), Contains("normal"));
 }

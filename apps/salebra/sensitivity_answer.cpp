@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// JSON and text of the sensitivities of a study.
+#include "sensitivity_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/units.hpp>
+
+#include "results/answer_json.hpp"
+#include "text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
+
+std::string name_of(const ParameterSensitivity& one) {
+  if (one.parameter != "waves") return one.parameter;
+  return one.shortest > 0
+             ? fmt::format("waves {} to {}", length_text(one.shortest), length_text(one.longest))
+             : "waves below " + length_text(one.longest);
+}
+
+/// The mean with half its interval, such as "-1.21 ± 0.08".
+std::string with_interval(const EnsembleMean& slope) {
+  if (std::isnan(slope.mean)) return "n/a";
+  // Removes the sign of a zero.
+  return fmt::format("{:.2f} ± {:.2f}", std::round(100 * slope.mean) / 100 + 0.0,
+                     (slope.high - slope.low) / 2);
+}
+
+}  // namespace
+
+Json sensitivity_json(const StudySensitivity& found) {
+  Json json = Json::object();
+  json["pressure"] = found.pressures;
+  for (const ParameterSensitivity& one : found.parameters)
+    for (const OutputSensitivity& output : one.outputs) {
+      Json slopes = to_json(output.at_pressures);
+      if (one.parameter != "waves") {
+        json[output.output][one.parameter] = std::move(slopes);
+        continue;
+      }
+      slopes["shortest"] = one.shortest;
+      slopes["longest"] = one.longest;
+      Json& list = json[output.output]["waves"];
+      if (!list.is_array()) list = Json::array();
+      list.push_back(std::move(slopes));
+    }
+  return json;
+}
+
+std::string sensitivity_text(const StudySensitivity& found) {
+  const std::size_t middle = found.pressures.size() / 2;
+  std::vector<std::string> outputs;
+  for (const ParameterSensitivity& one : found.parameters)
+    for (const OutputSensitivity& output : one.outputs)
+      if (std::ranges::find(outputs, output.output) == outputs.end())
+        outputs.push_back(output.output);
+  // The work per cycle responds as the damping constant does, but for the amplitude.
+  if (outputs.size() > 1 && outputs.back() == "damping_constant") outputs.erase(outputs.end() - 2);
+  std::vector<std::vector<std::string>> rows{{"parameter"}};
+  rows.front().insert(rows.front().end(), outputs.begin(), outputs.end());
+  for (const ParameterSensitivity& one : found.parameters) {
+    std::vector<std::string>& row = rows.emplace_back(std::vector{name_of(one)});
+    for (const std::string& name : outputs) {
+      const auto output = std::ranges::find(one.outputs, name, &OutputSensitivity::output);
+      row.push_back(output == one.outputs.end() ? "n/a"
+                                                : with_interval(output->at_pressures[middle]));
+    }
+  }
+  std::string text = fmt::format(
+      "Sensitivity d ln(result)/d ln(parameter) at {}, with {}\n",
+      format_quantity(found.pressures[middle], Dimension::pressure, 3),
+      found.surfaces > 1 ? "95 % intervals over the surfaces" : "the change at twice the step");
+  text += to_table(rows, 2, true);
+  for (const std::string& reason : found.left_out) text += "  left out: " + reason + "\n";
+  if (!outputs.empty())
+    if (const std::string sentence = found.sentence(outputs.back(), middle); !sentence.empty())
+      text += "  " + sentence + "\n";
+  return text;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sensitivities of the results of a study to its parameters and to bands of waves, by differences
+// between surfaces with the same random numbers.
+#include <salebra/study/sensitivity.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+
+#include "base/convolution.hpp"
+#include "base/special_values.hpp"
+#include "base/task_pool.hpp"
+#include "boundary_element_numbers.hpp"
+#include "case_run.hpp"
+#include "estimate.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::BoundaryElementNumbers;
+using detail::infinity;
+using detail::unknown;
+
+/// The surface with the amplitudes of waves that are longer than `shortest`, up to and with
+/// `longest`, multiplied by a factor.
+Surface with_waves_scaled(Surface surface, double shortest, double longest, double factor) {
+  const Grid2D& grid = surface.grid;
+  Convolution2D<double> convolution({grid.nx, grid.ny, grid.nx, grid.ny});
+  convolution.set_symbol(0, 0, [&](Index i, Index j) {
+    const double inverse = std::hypot(double(i) / grid.lx, double(j) / grid.ly);
+    constexpr double rounding = 1e-9;
+    return inverse * shortest < 1 - rounding && inverse * longest >= 1 - rounding ? factor : 1.0;
+  });
+  convolution.apply(surface.heights.data(), surface.heights.data());
+  return surface;
+}
+
+/// A change of a study in two directions: the surfaces and the configuration with which they are
+/// pressed, for the change δ of ln(parameter).
+struct Change {
+  ParameterSensitivity of;
+  std::function<StudyConfiguration(double change)> configuration;
+  std::function<Surface(Surface, double change)> surface = {};  // empty: that of the configuration
+};
+
+Change change_of(const StudyConfiguration& base, StudyParameter parameter) {
+  return {.of = {.parameter = std::string(name_of(parameter)),
+                 .value = value_of(base, parameter),
+                 .outputs = {}},
+          .configuration = [=](double change) { return scaled(base, parameter, std::exp(change)); }};
+}
+
+Change change_of_waves(const StudyConfiguration& base, std::string name, double value,
+                       double shortest, double longest) {
+  return {.of = {.parameter = std::move(name),
+                 .value = value,
+                 .shortest = shortest,
+                 .longest = longest,
+                 .outputs = {}},
+          .configuration = [=](double) { return base; },
+          .surface = [=](Surface surface, double change) {
+            return with_waves_scaled(std::move(surface), shortest, longest, std::exp(change));
+          }};
+}
+
+/// The octaves of wavelengths that a surface has, from the shortest to its longer side.
+std::vector<std::pair<double, double>> octaves_of(const StudyConfiguration& base,
+                                                  const Grid2D& grid) {
+  double shortest = 2 * std::max(grid.dx(), grid.dy());
+  const auto* recipe = std::get_if<GeneratedSurfaces>(&base.surfaces);
+  if (recipe && recipe->tables.empty() && recipe->textures.front().lay.peklenik() == 1)
+    shortest = recipe->spectrum.short_cutoff;
+  std::vector<std::pair<double, double>> octaves;
+  const double longest = std::max(grid.lx, grid.ly);
+  for (double from = shortest; from < longest * (1 - 1e-9); from *= 2)
+    octaves.emplace_back(from, std::min(2 * from, longest));
+  // All shorter waves, such as those along the diagonal of the cells, belong to the first octave.
+  octaves.front().first = 0;
+  return octaves;
+}
+
+std::vector<Change> changes_of(const StudyConfiguration& base, const Grid2D& grid,
+                               const SensitivityOptions& options,
+                               std::vector<std::string>& left_out) {
+  std::vector<Change> changes;
+  for (const auto& [parameter, name] : EnumNames<StudyParameter>::values) {
+    if (parameter == StudyParameter::rms_height) {
+      changes.push_back(change_of_waves(base, std::string(name), value_of(base, parameter), 0,
+                                        infinity));
+      changes.back().of.shortest = changes.back().of.longest = unknown;
+      continue;
+    }
+    if (std::isnan(value_of(base, parameter))) continue;
+    Change change = change_of(base, parameter);
+    try {
+      for (const double factor : {-2.0, 2.0}) change.configuration(factor * options.step);
+      changes.push_back(std::move(change));
+    } catch (const InvalidInput& refusal) {
+      left_out.push_back(fmt::format("{} cannot change by {:.2g} %: {}", name,
+                                     100 * std::expm1(2 * options.step), refusal.what()));
+    }
+  }
+  if (options.waves)
+    for (const auto& [shortest, longest] : octaves_of(base, grid))
+      changes.push_back(change_of_waves(base, "waves", unknown, shortest, longest));
+  return changes;
+}
+
+/// r of study_sensitivity() with its interval, from the results of each surface on both sides.
+EnsembleMean derivative(const std::vector<double>& above, const std::vector<double>& below,
+                        double step) {
+  double sum_above = 0, sum_below = 0, count = 0;
+  const auto known = [&](std::size_t i) { return !std::isnan(above[i] + below[i]); };
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (known(i)) sum_above += above[i], sum_below += below[i], ++count;
+  if (!(sum_above > 0 && sum_below > 0)) return {};
+  const double slope = std::log(sum_above / sum_below) / (2 * step);
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < above.size(); ++i)
+    if (known(i))
+      slopes.push_back(slope +
+                       count * (above[i] / sum_above - below[i] / sum_below) / (2 * step));
+  return student_mean(slopes, Sign::either);
+}
+
+}  // namespace
+
+Dimension dimension_of(StudyParameter parameter) {
+  using enum StudyParameter;
+  switch (parameter) {
+    case hurst:
+    case friction_coefficient:
+      return Dimension::dimensionless;
+    case contact_modulus:
+    case pressure:
+      return Dimension::pressure;
+    default:
+      return Dimension::length;
+  }
+}
+
+double value_of(const StudyConfiguration& configuration, StudyParameter parameter) {
+  using enum StudyParameter;
+  const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  const SelfAffineParameters* spectrum =
+      recipe && recipe->tables.empty() ? &recipe->spectrum : nullptr;
+  const auto* equal = std::get_if<EqualFrequency>(&configuration.motion);
+  const double amplitude =
+      equal ? equal->normal_amplitude : std::get<Drag>(configuration.motion).normal_amplitude;
+  const auto positive = [](double value) { return value > 0 ? value : unknown; };
+  switch (parameter) {
+    case rms_height:
+      return spectrum ? spectrum->rms_height.value_or(unknown) : unknown;
+    case hurst:
+      return spectrum ? spectrum->hurst : unknown;
+    case rolloff:
+      return spectrum ? spectrum->rolloff.value_or(unknown) : unknown;
+    case short_cutoff:
+      return spectrum ? spectrum->short_cutoff : unknown;
+    case contact_modulus:
+      return configuration.body ? unknown : configuration.material.contact_modulus;
+    case friction_coefficient:
+      return std::isfinite(configuration.known.friction_coefficient)
+                 ? positive(configuration.known.friction_coefficient)
+                 : unknown;
+    case pressure:
+      return configuration.relative_pressures || configuration.pressures.empty()
+                 ? unknown
+                 : configuration.pressures.back();
+    case normal_amplitude:
+      return positive(amplitude);
+    default:
+      return equal ? positive(equal->tangential_amplitude) : unknown;
+  }
+}
+
+StudyConfiguration scaled(StudyConfiguration configuration, StudyParameter parameter,
+                          double factor) {
+  using enum StudyParameter;
+  require_positive(factor, "factor");
+  if (parameter == rms_height) {
+    auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+    require_that(recipe && recipe->tables.empty(), "rms_height",
+                 "belongs to surfaces with a self-affine spectrum");
+    for (auto* amplitude : {&recipe->spectrum.rms_height, &recipe->spectrum.rms_slope})
+      if (*amplitude) **amplitude *= factor;
+    return configuration;
+  }
+  require_that(!std::isnan(value_of(configuration, parameter)), name_of(parameter),
+               "has no value in this study");
+  auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  const auto scale_spectrum = [&](double& value) {
+    value *= factor;
+    recipe->spectrum_of_all()->require_carried_by(recipe->grid);
+  };
+  auto* equal = std::get_if<EqualFrequency>(&configuration.motion);
+  Material& material = configuration.material;
+  switch (parameter) {
+    case hurst:
+      scale_spectrum(recipe->spectrum.hurst);
+      break;
+    case rolloff:
+      scale_spectrum(*recipe->spectrum.rolloff);
+      break;
+    case short_cutoff:
+      scale_spectrum(recipe->spectrum.short_cutoff);
+      break;
+    case contact_modulus:
+      material.contact_modulus *= factor;
+      material.tangential_modulus *= factor;
+      material.cerruti_isotropic /= factor;
+      material.cerruti_directed /= factor;
+      break;
+    case friction_coefficient:
+      configuration.known.friction_coefficient *= factor;
+      break;
+    case pressure:
+      for (double& pressure : configuration.pressures) pressure *= factor;
+      if (configuration.window) {
+        configuration.window->pressure_min *= factor;
+        configuration.window->pressure_max *= factor;
+      }
+      break;
+    case normal_amplitude:
+      (equal ? equal->normal_amplitude : std::get<Drag>(configuration.motion).normal_amplitude) *=
+          factor;
+      break;
+    default:
+      equal->tangential_amplitude *= factor;
+  }
+  return configuration;
+}
+
+const OutputSensitivity* StudySensitivity::find(std::string_view parameter,
+                                                std::string_view output) const {
+  for (const ParameterSensitivity& one : parameters)
+    if (one.parameter == parameter)
+      for (const OutputSensitivity& found : one.outputs)
+        if (found.output == output) return &found;
+  return nullptr;
+}
+
+std::string StudySensitivity::sentence(std::string_view output, std::size_t pressure) const {
+  struct Share {
+    double shortest, longest, size;
+  };
+  std::vector<Share> shares;
+  double sum = 0;
+  for (const ParameterSensitivity& one : parameters)
+    if (one.parameter == "waves")
+      for (const OutputSensitivity& found : one.outputs)
+        if (found.output == output) {
+          const double size = std::abs(found.at_pressures.at(pressure).mean);
+          shares.push_back({one.shortest, one.longest, std::isnan(size) ? 0 : size});
+          sum += shares.back().size;
+        }
+  if (shares.empty() || !(sum > 0)) return "";
+  const auto length = [](double value) { return format_quantity(value, Dimension::length, 3); };
+  const Share& most = *std::ranges::max_element(shares, {}, &Share::size);
+  std::string text = fmt::format(
+      "at {} the waves {} {} give {:.0f} % of the response of {} to all waves",
+      format_quantity(pressures.at(pressure), Dimension::pressure, 3),
+      most.shortest > 0 ? "of " + length(most.shortest) + " to" : "below", length(most.longest),
+      100 * most.size / sum, output);
+  const Share& first = shares.front();
+  const double share = first.size / sum;
+  if (shares.size() > 1 && &first != &most)
+    text += fmt::format("; those below {} give {:.0f} %", length(first.longest), 100 * share);
+  if (share > 0.1) text += ", so that waves that are shorter than those of the surfaces may matter";
+  return text;
+}
+
+StudySensitivity study_sensitivity(const StudyConfiguration& configuration,
+                                   const SensitivityOptions& options) {
+  require(options.step >= 1e-3 && options.step <= 0.2, "step", options.step,
+          "must be between 0.001 and 0.2");
+  const detail::BoundaryElementNumbers study(configuration, options.on_progress);
+  StudySensitivity result{.pressures = study.base().pressures,
+                          .surfaces = study.surfaces(),
+                          .step = options.step,
+                          .parameters = {},
+                          .left_out = {}};
+  const std::vector<Change> changes =
+      changes_of(study.base(), study.grid(), options, result.left_out);
+  // Of a single surface the difference of two steps is the error.
+  std::vector<double> steps{options.step, -options.step};
+  if (result.surfaces == 1) steps.insert(steps.end(), {2 * options.step, -2 * options.step});
+  std::vector<detail::StudyVariant> variants;
+  for (const Change& change : changes)
+    for (const double step : steps) {
+      variants.push_back({.configuration = change.configuration(step), .surface = {}});
+      if (change.surface)
+        variants.back().surface = [&change, step](Surface surface) {
+          return change.surface(std::move(surface), step);
+        };
+    }
+  const auto numbers = study.of(variants);
+  if (numbers.empty()) {
+    result.interrupted = true;
+    return result;
+  }
+  for (std::size_t c = 0; c < changes.size(); ++c) {
+    ParameterSensitivity& found = result.parameters.emplace_back(changes[c].of);
+    for (std::size_t output = 0; output < BoundaryElementNumbers::outputs.size(); ++output) {
+      OutputSensitivity one{std::string(BoundaryElementNumbers::outputs[output]), {}};
+      for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+        const auto side = [&](std::size_t step) {
+          std::vector<double> values;
+          for (const auto& surface : numbers[c * steps.size() + step])
+            values.push_back(surface[output][k]);
+          return values;
+        };
+        EnsembleMean slope = derivative(side(0), side(1), options.step);
+        if (steps.size() > 2) {
+          const double error =
+              std::abs(derivative(side(2), side(3), 2 * options.step).mean - slope.mean);
+          slope.low = slope.mean - error, slope.high = slope.mean + error;
+        }
+        one.at_pressures.push_back(slope);
+      }
+      if (std::ranges::any_of(one.at_pressures,
+                              [](const EnsembleMean& slope) { return !std::isnan(slope.mean); }))
+        found.outputs.push_back(std::move(one));
+    }
+  }
+  return result;
+}
+
+}  // namespace salebra
