@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import functools
 import html as _html
 from collections import namedtuple
 from typing import TYPE_CHECKING, Any
@@ -73,7 +72,6 @@ def shown(value: Any, unit: str) -> str:
     return repr(value)
 
 
-@functools.cache
 def _arrays(kind: type) -> list[str]:
     """Names of the properties that are arrays, by their signatures: a table does not read the others, of which verdicts take long."""
     return [name for name in properties(kind) if "numpy." in getattr(kind, name).fget.__nb_signature__[0][0]]
