@@ -228,7 +228,7 @@ def test_heights_whose_unit_was_forgotten_are_doubted_once(surface: salebra.Surf
     assert len(told) == 1
     assert told[0].filename == __file__
     holed = surface.heights * 1e9
-    holed[2, 3] = np.nan
+    holed[:, 3] = np.nan  # in every row
     with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1; are the heights in nm\?"):
         salebra.Surface(holed, surface.size_x, surface.size_y)
     np.savetxt(tmp_path / "scan.txt", surface.heights.T * 1e6)
