@@ -72,10 +72,15 @@ def shown(value: Any, unit: str) -> str:
     return repr(value)
 
 
-def _values(result: Any) -> list[tuple[str, Any, str, str]]:
-    """Name, value, unit and meaning of every property that has a value."""
+def _arrays(kind: type) -> list[str]:
+    """Names of the properties that are arrays, by their signatures: a table does not read the others, of which verdicts take long."""
+    return [name for name in properties(kind) if "numpy." in getattr(kind, name).fget.__nb_signature__[0][0]]
+
+
+def _values(result: Any, names: list[str] | None = None) -> list[tuple[str, Any, str, str]]:
+    """Name, value, unit and meaning of every property that has a value; of these names only, if some are given."""
     found = []
-    for name in properties(type(result)):
+    for name in properties(type(result)) if names is None else names:
         try:
             value = getattr(result, name)
         except (_core.Error, TypeError):  # unknown value, or an object whose constructor failed
@@ -122,10 +127,10 @@ def columns(result: Any) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if (coordinate := getattr(result, "coordinate", None)) is not None:  # first, by its name
         found[coordinate] = result.values
-    for name, value, _, _ in _values(result):
+    for name, value, _, _ in _values(result, _arrays(type(result))):
         if name == "values":
             continue
-        if isinstance(value, np.ndarray) and value.ndim == 1 and (not found or len(value) == len(next(iter(found.values())))):
+        if value.ndim == 1 and (not found or len(value) == len(next(iter(found.values())))):
             found[name] = value
     return {name: value for name, value in found.items() if value.dtype.kind != "f" or not np.isnan(value).all()} or found
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/analysis/slip.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/results/assumption_verdicts.hpp>
@@ -25,6 +26,37 @@
 #include "results/describe.hpp"
 
 namespace salebra::python {
+
+JudgedDamping BoundDamping::judged() const {
+  judge_all({this, 1});
+  return {*this, assumptions};
+}
+
+void judge_all(std::span<const BoundDamping> results) {
+  std::vector<const BoundDamping*> open;
+  // A copy: while the lock is free, another thread may finish the same result and drop its `judge`.
+  std::vector<std::function<Assumptions()>> judges;
+  for (const BoundDamping& one : results)
+    if (one.judge) {
+      open.push_back(&one);
+      judges.push_back(one.judge);
+    }
+  if (open.empty()) return;
+  std::vector<Assumptions> judged(open.size());
+  unlocked([&] {
+    const auto judge = [&](Index begin, Index end) {
+      for (auto i = std::size_t(begin); i < std::size_t(end); ++i) judged[i] = judges[i]();
+    };
+    if (open.size() == 1)
+      judge(0, 1);  // its own loops are parallel
+    else
+      parallel::for_slabs(Index(open.size()), judge);
+  });
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    open[i]->assumptions = std::move(judged[i]);
+    open[i]->judge = nullptr;
+  }
+}
 
 void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given) {
   const std::string why = why_loss_unknown(motion, known(parameters), force_given);
@@ -56,10 +88,8 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
       motion);
   // Keeps the Python object of the law alive as long as the result.
   return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
-            return unlocked([&] {
-              return with_motion(
-                  motion, [&](const auto& one) { return assumptions_of(law, mean, one, all); });
-            });
+            return with_motion(
+                motion, [&](const auto& one) { return assumptions_of(law, mean, one, all); });
           }};
 }
 
@@ -101,6 +131,7 @@ BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
 
 /// The validity of losses as they are described: where they include slip, slip is no assumption.
 std::string validity_of_losses(std::span<const BoundDamping> losses) {
+  judge_all(losses);
   std::vector<Assumptions> assumptions;
   for (const BoundDamping& one : losses)
     if (const auto judged = one.judged().assumptions) assumptions.push_back(*judged);
@@ -138,6 +169,7 @@ void bind_damping_curve(nb::module_& m) {
       .def_prop_ro(
           "regime",
           [](const BoundDampingCurve& self) {
+            judge_all(self.results);
             std::vector<std::string> regimes;
             for (const BoundDamping& one : self.results) regimes.push_back(regime_of(one));
             return regimes;
@@ -150,6 +182,7 @@ void bind_damping_curve(nb::module_& m) {
   value_methods(
       bound,
       [](const BoundDampingCurve& self) {
+        judge_all(self.results);
         CurveOf<JudgedDamping> curve{self.coordinate, self.values, {}};
         for (const BoundDamping& one : self.results) curve.results.push_back(one.judged());
         return curve;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 
@@ -91,10 +92,15 @@ void StiffnessTable::add_cells(const ContactLaw& law, double low, double high, d
   cell.coefficients = monomials(s, values);
   // A jump of K_t needs some fifty halvings of its cell; the remaining steep ramp has no effect.
   constexpr int deepest = 50;
+  // Indentations are rounded. Where K_t rises steeply, as at first touch far from indentation 0, this
+  // alone changes it by more than the tolerance, and narrower cells would follow the rounding errors.
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          std::max(std::abs(low), std::abs(high)) *
+                          std::abs((values.back() - values.front()) / (high - low));
   bool fits = true;
   for (std::size_t i = 0; i < degree && fits && depth < deepest; ++i) {
     const double between = 0.5 * (s[i] + s[i + 1]);
-    fits = std::abs(horner(cell.coefficients, between) - exact(between)) <= tolerance;
+    fits = std::abs(horner(cell.coefficients, between) - exact(between)) <= tolerance + rounding;
   }
   // Limits the number of cells: if a law scatters by more than the tolerance, each cell would be
   // halved as often as possible.

@@ -21,21 +21,10 @@ namespace {
 struct Differences {
   double sum = 0, squares = 0, count = 0;
 
-  /// Adds the differences values[i] − others[i]. Eight sums in parallel: a single chain of
-  /// additions would take longer than reading the heights from the disk's cache.
+  /// Adds the differences values[i] − others[i].
   void add(const double* values, const double* others, Index size) {
-    double differences = 0, their_squares = 0, defined = 0;
-#pragma omp simd simdlen(8) reduction(+ : differences, their_squares, defined)
-    for (Index i = 0; i < size; ++i) {
-      const double difference = values[i] - others[i];
-      const double one = difference == difference ? 1 : 0, known = one > 0 ? difference : 0;
-      differences += known;
-      their_squares += known * known;
-      defined += one;
-    }
-    sum += differences;
-    squares += their_squares;
-    count += defined;
+    // Few rows have undefined heights, and the sums of a row show it: they are then not finite.
+    if (!add<false>(values, others, size)) add<true>(values, others, size);
   }
   void add(const Differences& other) {
     sum += other.sum;
@@ -46,6 +35,29 @@ struct Differences {
   double variance(double step) const {
     const double mean = sum / count;
     return (squares / count - mean * mean) / (step * step);
+  }
+
+ private:
+  /// Returns false, and adds nothing, if without the mask the sums are not finite. Eight sums in
+  /// parallel: a single chain of additions would take longer than reading the heights from the
+  /// disk's cache.
+  template <bool masked>
+  bool add(const double* values, const double* others, Index size) {
+    double differences = 0, their_squares = 0, defined = 0;
+#pragma omp simd simdlen(8) reduction(+ : differences, their_squares, defined)
+    for (Index i = 0; i < size; ++i) {
+      const double difference = values[i] - others[i];
+      const double one = !masked || difference == difference ? 1 : 0;
+      const double known = one > 0 ? difference : 0;
+      differences += known;
+      their_squares += known * known;
+      defined += one;
+    }
+    if (!masked && !std::isfinite(their_squares)) return false;
+    sum += differences;
+    squares += their_squares;
+    count += defined;
+    return true;
   }
 };
 

@@ -46,20 +46,20 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
 
 }  // namespace
 
-TEST_CASE("A study killed at twenty random moments ends as if nothing had happened", "[resume]") {
+TEST_CASE("A study killed at ten random moments ends as if nothing had happened", "[resume]") {
   const ProgramTest test;
   test.write("study.toml", study_of(18));
   int killed = 0;
-  for (int moment = 0; moment < 20; ++moment) {
+  for (int moment = 0; moment < 10; ++moment) {
     const RandomPair chance = uniform_pair(20, moment, 0);
     killed += run_and_kill(test, chance.first < 0.7,
                            std::chrono::microseconds(int(30000 * chance.second)));
     if (fs::exists(test.folder() / "result.h5")) break;
   }
-  // All twenty unless the machine is so fast that it finished between them.
-  CHECK(killed >= 10);
+  // All ten unless the machine is so fast that it finished between them.
+  CHECK(killed >= 5);
   const std::size_t kept = parts_in(test.folder() / "result.h5.parts");
-  CHECK(kept >= 5);
+  CHECK(kept >= 3);
   // A bit that turned on the disk, and a file cut short, cost their surfaces only.
   int spoilt = 0;
   for (const auto& entry : fs::directory_iterator(test.folder() / "result.h5.parts")) {

@@ -89,8 +89,8 @@ TEST_CASE("Columns of several processes transform to the bits of one process", "
       for (Index i = 0; i < nx; ++i) out[std::size_t(i)] = modes[std::size_t(i * all + j)];
     };
     const Field whole = backward_by_columns(nx, ny, columns, column);
-    for (const int ranks : {1, 2, 3, 4, 5, 8})
-      for (const int threads : {1, 2}) {
+    for (const int ranks : {1, 2, 3, 8})
+      for (const int threads : ranks % 2 == 1 ? std::vector{1, 2} : std::vector{1}) {
         CAPTURE(nx, ny, columns, ranks, threads);
         parallel::set_threads(threads);
         std::atomic<Index> made = 0;

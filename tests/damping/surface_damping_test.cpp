@@ -738,7 +738,7 @@ TEST_CASE("The loss of small amplitudes is that of contacts that know nothing of
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 0.25e-3, .short_cutoff = 64e-6, .rms_height = 1e-6});
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1, 2}) {
     const Surface surface = random_phase(grid, spectrum, seed);
     const ForceCurve curve = curve_of(surface, {6e6, 18e6}, Boundary::periodic, false);
     for (const double relative : {3e-4, 1e-3}) {

@@ -22,6 +22,29 @@ struct Point {
   double indentation, x;
 };
 
+// A paraboloid that touches far from indentation 0, so that its indentations are rounded to 1e-9 of
+// what the first springs compress. Counts how often K_t is asked for.
+class DistantParaboloid final : public ContactLaw {
+ public:
+  explicit DistantParaboloid(double touch) : ContactLaw(ratio), touch_(touch) {}
+  double force(double d) const override { return std::pow(above(d), 1.5); }
+  double normal_stiffness(double d) const override { return 1.5 * std::sqrt(above(d)); }
+  double force_curvature(double d) const override { return 0.75 / std::sqrt(above(d)); }
+  double tangential_stiffness(double d) const override {
+    ++asked;
+    return ratio * normal_stiffness(d);
+  }
+  double first_touch() const override { return touch_; }
+  double lowest_indentation() const override { return touch_; }
+  double indentation_of(double force) const override { return touch_ + std::pow(force, 2. / 3); }
+
+  mutable int asked = 0;
+
+ private:
+  double above(double d) const { return std::max(d - touch_, 0.0); }
+  double touch_;
+};
+
 // A path with turning points at all depths, and with horizontal and vertical steps.
 std::vector<Point> wild_path(double low, double high, double reach, int count) {
   std::mt19937_64 bits(7);
@@ -376,4 +399,22 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
     CHECK_THROWS_WITH(slipping.move_to_force(0, force),
                       Catch::Contains("0.6 N, at which the contact slides"));
   CHECK(slipping.tangential_force() == Approx(-0.599).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "The springs of a contact that touches far from indentation 0 are found by few values of K_t",
+    "[tangential]") {
+  const double touch = -3;
+  const DistantParaboloid law(touch);
+  const TangentialContact contact(law, touch, touch + 1);
+  CHECK(law.asked < 10'000);
+  const DistantParaboloid near(0);
+  TangentialContact expected(near, 0, 1), found = contact;
+  for (TangentialContact* one : {&expected, &found}) {
+    const double zero = one == &found ? touch : 0;
+    one->start(zero, 0);
+    one->move_to(zero + 1, 0.3);
+    one->move_to(zero, 0.1);
+  }
+  CHECK(found.dissipated() == Approx(expected.dissipated()).epsilon(1e-10));
 }

@@ -54,50 +54,38 @@ class Springs:
         low, high = self.depth[0] - amplitude, self.depth[-1] - amplitude
         return float(brentq(lambda mean: self.mean_force(mean, amplitude) - force, low, high, xtol=1e-15))
 
-    def work(self, indentation: Array, displacement: Array, friction: float, lead: int = 0) -> float:
-        """The work of the tangential force along a path of straight steps, counted after `lead` steps. The path begins where the springs are
-        free of stress."""
-        touching = np.maximum(indentation[0] - self.depth, 0) > 0
-        stretch = np.zeros_like(self.depth)
+    def work(self, indentation: Array, displacement: Array, friction: float, lead: int = 0) -> Array:
+        """The work of the tangential force along paths of straight steps, counted after `lead` steps. The paths begin where the springs are
+        free of stress. Each row of `indentation` is one path; all have the same displacement."""
+        stretch = np.zeros((len(indentation), len(self.depth)))
         limited = np.isfinite(friction)
         slope = friction * self.normal / np.where(self.tangential > 0, self.tangential, 1) if limited else np.zeros_like(self.depth)
-        work = 0.0
-        before = indentation[0]
-        for step in range(1, len(indentation)):
-            now, travel = indentation[step], displacement[step] - displacement[step - 1]
-            # The part of the step in which each spring touches.
-            change = now - before
-            if change > 0:
-                part = np.clip((now - self.depth) / change, 0, 1)
-            elif change < 0:
-                part = np.clip((before - self.depth) / -change, 0, 1)
-            else:
-                part = touching.astype(float)
+        work = np.zeros(len(indentation))
+        for step in range(1, len(displacement)):
+            before, now = indentation[:, step - 1, None], indentation[:, step, None]
+            travel = displacement[step] - displacement[step - 1]
+            # The part of the step in which each spring touches; all or nothing of a step that goes neither up nor down.
+            above = np.maximum(now, before) - self.depth
+            part = np.minimum(np.maximum(above / np.maximum(np.abs(now - before), 1e-300), 0), 1)
             moved = stretch + travel * part
             if limited:
                 limit = slope * np.maximum(now - self.depth, 0)
                 # While the limit falls to zero the spring slips: the mean stretch of the step is that between its ends.
-                moved = np.clip(moved, -limit, limit)
-            pulled = self.tangential * 0.5 * (stretch + moved) * travel * part
+                moved = np.minimum(np.maximum(moved, -limit), limit)
             if step > lead:
-                work += float(pulled.sum())
-            touching = now > self.depth
-            stretch = np.where(touching, moved, 0.0)
-            before = now
+                work += 0.5 * travel * (((stretch + moved) * part) @ self.tangential)
+            stretch = moved * (now > self.depth)
         return work
 
     def oscillation(self, mean: float, normal: float, tangential: float, phase: float, friction: float, steps: int = 1200) -> float:
         """W of d = mean + u_z cos wt, x = u_x cos(wt + phase), in the third period."""
         angle = np.pi + 2 * np.pi * np.arange(3 * steps + 1) / steps
-        return self.work(mean + normal * np.cos(angle), tangential * np.cos(angle + phase), friction, 2 * steps)
+        return float(self.work(mean + normal * np.cos(angle)[None], tangential * np.cos(angle + phase), friction, 2 * steps)[0])
 
     def drag(self, mean: float, normal: float, distance: float, friction: float, cycles: int = 12, steps: int = 240) -> float:
         """W per normal cycle of a drag by `distance` in each cycle, to and fro between turning points, over four phases of turning."""
-        works = []
-        for start in (0.125, 0.375, 0.625, 0.875):
-            count = 2 * cycles * steps
-            angle = 2 * np.pi * (start + np.arange(2 * count + 1) / steps)
-            leg = np.arange(2 * count + 1) / count
-            x = cycles * distance * (1 - np.abs((leg % 1) * 2 - 1))
-            works.append(self.work(mean + normal * np.cos(angle), x, friction, count) / (2 * cycles))
-        return float(np.mean(works))
+        count = 2 * cycles * steps
+        at = np.arange(2 * count + 1)
+        angle = 2 * np.pi * (np.array([[0.125], [0.375], [0.625], [0.875]]) + at / steps)
+        x = cycles * distance * (1 - np.abs((at / count % 1) * 2 - 1))
+        return float(self.work(mean + normal * np.cos(angle), x, friction, count).mean()) / (2 * cycles)

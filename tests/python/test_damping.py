@@ -570,6 +570,24 @@ def test_assumptions_are_judged_when_they_are_read() -> None:
         salebra.relaxation_damping(salebra.ExponentialLaw(1.0, 1e-7, 0.8), motion, force=1.0, parameters=salebra.ContactParameters(hardness=-1.0))
 
 
+def test_a_table_of_a_curve_reads_no_verdicts(monkeypatch: pytest.MonkeyPatch) -> None:
+    law, forces = salebra.ExponentialLaw(0.1, 3e-7, 0.8), np.geomspace(0.01, 1.0, 5)
+    parameters = salebra.ContactParameters(friction_coefficient=0.3, excursion=1e-5)
+    curve = salebra.damping_curve(law, [DRAG], force=forces, parameters=parameters)
+    one_by_one = [salebra.relaxation_damping(law, DRAG, force=force, parameters=parameters) for force in forces]
+    assert curve.regime == [one.regime for one in one_by_one]
+    assert [one.assumptions for one in curve] == [one.assumptions for one in one_by_one]
+
+    for name in ("regime", "validity"):
+
+        def read(_: object) -> None:
+            raise AssertionError("judged for a table")
+
+        setattr(read, "__nb_signature__", getattr(salebra.DampingCurve, name).fget.__nb_signature__)
+        monkeypatch.setattr(salebra.DampingCurve, name, property(read))
+    assert "damping_constant" in curve.to_dataframe() and "values" not in curve.to_dataframe()
+
+
 def test_a_curve_without_stiffness_is_refused(surface: salebra.Surface, material: salebra.Material) -> None:
     motion = salebra.EqualFrequency(normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=1.5)
     for curve, missing in (

@@ -227,6 +227,10 @@ def test_heights_whose_unit_was_forgotten_are_doubted_once(surface: salebra.Surf
         salebra.press(wrong, 1e9, pressure=1e6)
     assert len(told) == 1
     assert told[0].filename == __file__
+    holed = surface.heights * 1e9
+    holed[:, 3] = np.nan  # in every row
+    with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1; are the heights in nm\?"):
+        salebra.Surface(holed, surface.size_x, surface.size_y)
     np.savetxt(tmp_path / "scan.txt", surface.heights.T * 1e6)
     sizes = {"size_x": surface.size_x, "size_y": surface.size_y}
     with pytest.warns(UserWarning, match=r"scan.txt: rms slope \S+ is above 1; are the heights in µm\?") as told:

@@ -64,7 +64,8 @@ TEST_CASE("The response to a plane wave is the mean periodogram of such waves", 
                                     std::pair{Grid2D{256, 1, 1e-4, 1e-4}, false}}) {
     const twin_detail::Response response = twin_detail::response_of(grid, drift);
     const twin_detail::ScanModes modes(grid);
-    for (const double about : {0.2, 0.7, 1.6, 4.2}) {
+    const bool square = grid.nx == grid.ny;
+    for (const double about : square ? std::vector{0.2, 0.7, 1.6, 4.2} : std::vector{0.2, 1.6}) {
       std::size_t cell = 0;
       while (response.limits[cell + 1] < about) ++cell;
       const double kappa = response.middle[cell];

@@ -60,14 +60,12 @@ bool holds(const IntervalEstimate& interval, double truth) {
 }  // namespace
 
 TEST_CASE("The laws across and along a lay have limits that hold", "[self_affine]") {
-  const Lay lay{.hurst = 0.7,
-                .rolloff = 1.0 / 12,
-                .short_cutoff = 2.5 / 256,
-                .stretch = 3,
-                .angle = GENERATE(0.0, 0.5)};
+  Lay lay{.hurst = 0.7, .rolloff = 1.0 / 12, .short_cutoff = 2.5 / 256, .stretch = 3, .angle = 0};
   constexpr int surfaces = 10;
   int across = 0, along = 0, rolloffs = 0, held_rolloffs = 0, mean = 0, ends = 0;
   for (unsigned seed = 1; seed <= surfaces; ++seed) {
+    // Along the grid and between its axes in turn.
+    lay.angle = seed % 2 == 0 ? 0 : 0.5;
     const Surface surface = crop_with_lay(lay, 256, seed);
     const PowerSpectrum spectrum = power_spectrum(surface);
     const auto fit = fit_self_affine(spectrum, surface_lay(surface));
@@ -129,7 +127,7 @@ TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 
   const SelfAffineSpectrum target(
       {.hurst = hurst, .rolloff = rolloff, .short_cutoff = short_cutoff, .rms_height = 1});
   int found = 0, covered = 0, found_rolloff = 0, covered_rolloff = 0, ended = 0;
-  constexpr int surfaces = 200;
+  constexpr int surfaces = 100;
   for (int seed = 0; seed < surfaces; ++seed) {
     const SelfAffineFit fit = fit_self_affine(
         power_spectrum(filtered_noise({128, 128, 1, 1}, target, static_cast<std::uint64_t>(seed))));
@@ -163,7 +161,7 @@ TEST_CASE("A crop that is not periodic has honest intervals of H too", "[self_af
   const SelfAffineSpectrum target(
       {.hurst = hurst, .rolloff = 0.25, .short_cutoff = 3.0 / 128, .rms_height = 1});
   int found = 0, covered = 0, ended = 0;
-  constexpr int surfaces = 200;
+  constexpr int surfaces = 100;
   for (int seed = 0; seed < surfaces; ++seed) {
     const Surface periodic =
         filtered_noise({128, 128, 1, 1}, target, static_cast<std::uint64_t>(seed));

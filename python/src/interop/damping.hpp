@@ -5,6 +5,7 @@
 #include <optional>
 #include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <span>
 #include <string>
 
 #include "interop/curves.hpp"
@@ -28,15 +29,16 @@ constexpr void describe(auto&& visit, std::type_identity<JudgedDamping>) {
 /// the damping constant, so they are judged when they are first read.
 struct BoundDamping : DampingResult {
   mutable std::optional<Assumptions> assumptions;
-  mutable std::function<Assumptions()>
-      judge;  ///< empty: the assumptions are known, or were not requested
+  /// Empty: the assumptions are known, or were not requested. Is called without the interpreter's
+  /// lock.
+  mutable std::function<Assumptions()> judge;
 
-  JudgedDamping judged() const {
-    if (judge) assumptions = judge();
-    judge = nullptr;
-    return {*this, assumptions};
-  }
+  JudgedDamping judged() const;
 };
+
+/// Judges the assumptions of all results that need it, in parallel. The caller must hold the
+/// interpreter's lock.
+void judge_all(std::span<const BoundDamping> results);
 
 /// Damping results for several values of one quantity. Pickles store them as
 /// CurveOf<JudgedDamping>.
