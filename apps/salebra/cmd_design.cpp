@@ -58,8 +58,7 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
                     interval(one.surface, dimension, 3)});
   std::vector<std::vector<std::string>> values{{"parameter", "value", "limits", "sensitivity", ""}};
   for (const DesignedParameter& one : found.parameters) {
-    const Dimension own =
-        dimension_of(*parse_enum<StudyParameter>(one.parameter));
+    const Dimension own = dimension_of(*parse_enum<StudyParameter>(one.parameter));
     values.push_back({one.parameter, format_quantity(one.value, own, 3),
                       fmt::format("{} to {}", format_quantity(one.low, own, 3),
                                   format_quantity(one.high, own, 3)),
@@ -73,15 +72,16 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
            1 + problem.target.tolerance;
   });
   return fmt::format(
-      "{}: the largest deviation from the target is {:.0f} %, allowed are {:.0f} %\n",
-      found.met ? "The target is met" : "The target is not met, this is the nearest that was found",
-      100 * found.deviation, 100 * problem.target.tolerance) +
+             "{}: the largest deviation from the target is {:.0f} %, allowed are {:.0f} %\n",
+             found.met ? "The target is met"
+                       : "The target is not met, this is the nearest that was found",
+             100 * found.deviation, 100 * problem.target.tolerance) +
          to_table(values, 2, true) + to_table(rows, 2) +
          fmt::format("  on surfaces that the search did not use; {} studies were computed\n",
                      found.studies) +
-         (found.met && !certain
-              ? "  The intervals of the means reach beyond the tolerance; more seeds make it sure.\n"
-              : "");
+         (found.met && !certain ? "  The intervals of the means reach beyond the tolerance; more "
+                                  "seeds make it sure.\n"
+                                : "");
 }
 
 void run(const std::string& file, Session& session) {
@@ -100,7 +100,7 @@ void run(const std::string& file, Session& session) {
 void add_design_command(Program& program) {
   auto file = std::make_shared<std::string>();
   Command& command = program.add_command(
-      "design", "roughness, load and motion for a wanted damping or stiffness",
+      "design", "roughness and motion for a wanted damping or stiffness",
       {"salebra design data/damper.design.toml", "salebra design data/damper.design.toml --json"},
       [file](Session& session) { run(*file, session); });
   command.add_option("FILE", *file, "target and limits of the free parameters (TOML)")

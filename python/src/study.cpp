@@ -467,8 +467,8 @@ progress : bool or callable
   described_class<DesignedParameter>(m, "DesignedParameter", "A parameter of a design.");
   described_class<DesignPoint>(m, "DesignPoint",
                                "What a design gives at one force, on other surfaces.");
-  described_class<Design>(m, "Design",
-                          "Parameters for which a result is closest to a target at all its forces.");
+  described_class<Design>(
+      m, "Design", "Parameters for which a result is closest to a target at all its forces.");
   m.def(
       "design",
       [](const std::filesystem::path& file, const ProgressArgument& progress) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a linear body from a TOML file.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <salebra/base/enum_names.hpp>
@@ -68,12 +67,11 @@ Body read_anisotropic(TomlTable table) {
   }
   AnisotropicStiffness stiffness;
   if (matrix) {
-    const std::vector<double> rows = table.values("stiffness", pressure);
-    table.check(rows.size() == 36, "stiffness",
-                fmt::format("has {} numbers; give the 6 rows of 6 as one list of 36, in the order "
-                            "xx, yy, zz, yz, xz, xy",
-                            rows.size()));
-    for (std::size_t k = 0; k < rows.size(); ++k) stiffness.c[k / 6][k % 6] = rows[k];
+    const auto rows = table.rows("stiffness", pressure);
+    const auto of_six = [](const std::vector<double>& row) { return row.size() == 6; };
+    table.check(rows.size() == 6 && std::ranges::all_of(rows, of_six), "stiffness",
+                "must be 6 rows of 6 numbers, in the order xx, yy, zz, yz, xz, xy");
+    for (std::size_t i = 0; i < 6; ++i) std::ranges::copy(rows[i], stiffness.c[i].begin());
   } else {
     stiffness = AnisotropicStiffness::cubic(modulus("c11"), modulus("c12"), modulus("c44"));
   }

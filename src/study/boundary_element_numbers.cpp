@@ -26,8 +26,9 @@ BoundaryElementNumbers::OfSurface numbers_of(const Realisation& realisation) {
     const ForceSample& sample = bem.curve.samples[k];
     const DampingPoint loss = k < bem.damping.size() ? bem.damping[k] : DampingPoint{};
     const std::array<double, BoundaryElementNumbers::outputs.size()> values{
-        sample.mean_gap,       sample.contact_area_fraction, sample.normal_stiffness,
-        sample.tangential_stiffness, loss.work_per_cycle,    loss.damping_constant};
+        sample.mean_gap,         sample.contact_area_fraction,
+        sample.normal_stiffness, sample.tangential_stiffness,
+        loss.work_per_cycle,     loss.damping_constant};
     for (std::size_t output = 0; output < values.size(); ++output)
       numbers[output].push_back(sample.converged ? values[output] : unknown);
   }

@@ -21,8 +21,8 @@ struct StudyVariant {
 class BoundaryElementNumbers {
  public:
   static constexpr std::array<std::string_view, 6> outputs{
-      "mean_gap",           "contact_area_fraction", "normal_stiffness",
-      "tangential_stiffness", "work_per_cycle",        "damping_constant"};
+      "mean_gap",       "contact_area_fraction", "normal_stiffness", "tangential_stiffness",
+      "work_per_cycle", "damping_constant"};
   using OfSurface = std::array<std::vector<double>, outputs.size()>;  // at each pressure
 
   // Throws InvalidInput for a parameter grid and for adhesion, and wherever study_loads() does.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Design of a contact: parameters of a study for which a result meets a target.
-#include <salebra/study/design.hpp>
-
 #include <fmt/format.h>
 #include <gsl/gsl_multifit_nlinear.h>
 
@@ -11,6 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/study/design.hpp>
 
 #include "base/quiet_gsl.hpp"
 #include "base/special_values.hpp"
@@ -103,8 +102,8 @@ class Search {
     StudyConfiguration configuration = study_.base();
     for (std::size_t p = 0; p < thetas.size(); ++p) {
       const StudyParameter parameter = problem_.free[p].parameter;
-      configuration =
-          scaled(std::move(configuration), parameter, thetas[p] / value_of(configuration, parameter));
+      configuration = scaled(std::move(configuration), parameter,
+                             thetas[p] / value_of(configuration, parameter));
     }
     return configuration;
   }
@@ -143,7 +142,7 @@ class Search {
   /// The minimum that a start leads to.
   struct Minimum {
     std::vector<double> thetas;
-    double worst = 0;                               ///< largest |residual|
+    double worst = 0;                              ///< largest |residual|
     std::vector<std::vector<double>> logarithmic;  ///< d residual/d ln θ [parameter][force]
   };
   Minimum minimum(std::vector<double> x) {
@@ -160,8 +159,7 @@ class Search {
         const auto slopes = search.slopes(search.thetas_of(at));
         for (std::size_t q = 0; q < slopes.size(); ++q) {
           const FreeParameter& one = search.problem_.free[q];
-          const double factor =
-              std::log(one.high / one.low) / 2 * std::cos(gsl_vector_get(at, q));
+          const double factor = std::log(one.high / one.low) / 2 * std::cos(gsl_vector_get(at, q));
           for (std::size_t k = 0; k < slopes[q].size(); ++k)
             gsl_matrix_set(j, k, q, factor * slopes[q][k]);
         }
@@ -171,8 +169,7 @@ class Search {
     functions.p = p;
     functions.params = this;
     const gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
-    const std::unique_ptr<gsl_multifit_nlinear_workspace,
-                          decltype(&gsl_multifit_nlinear_free)>
+    const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)>
         workspace(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p),
                   &gsl_multifit_nlinear_free);
     const gsl_vector_view first = gsl_vector_view_array(x.data(), p);
@@ -283,10 +280,11 @@ DesignProblem read_design_problem(const std::filesystem::path& file) {
   problem.target.output = *output;
   const Dimension dimension = target.located([&] { return dimension_of_output(*output); });
   problem.target.values = target.values("value", dimension);
-  problem.target.tolerance = target.quantity("tolerance", Dimension::dimensionless)
-                                 .value_or(problem.target.tolerance);
+  problem.target.tolerance =
+      target.quantity("tolerance", Dimension::dimensionless).value_or(problem.target.tolerance);
   problem.target.force = target.values("force", Dimension::force);
-  if (auto& force = problem.target.force; force.size() == 2 && force[0] > 0 && force[1] > force[0]) {
+  if (auto& force = problem.target.force;
+      force.size() == 2 && force[0] > 0 && force[1] > force[0]) {
     const double ratio = std::cbrt(force[1] / force[0]);
     force = {force[0], force[0] * ratio, force[0] * ratio * ratio, force[1]};
   }

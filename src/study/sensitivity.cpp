@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sensitivities of the results of a study to its parameters and to bands of waves, by differences
 // between surfaces with the same random numbers.
-#include <salebra/study/sensitivity.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <functional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/study/sensitivity.hpp>
 
 #include "base/convolution.hpp"
 #include "base/special_values.hpp"
@@ -48,10 +47,11 @@ struct Change {
 };
 
 Change change_of(const StudyConfiguration& base, StudyParameter parameter) {
-  return {.of = {.parameter = std::string(name_of(parameter)),
-                 .value = value_of(base, parameter),
-                 .outputs = {}},
-          .configuration = [=](double change) { return scaled(base, parameter, std::exp(change)); }};
+  return {
+      .of = {.parameter = std::string(name_of(parameter)),
+             .value = value_of(base, parameter),
+             .outputs = {}},
+      .configuration = [=](double change) { return scaled(base, parameter, std::exp(change)); }};
 }
 
 Change change_of_waves(const StudyConfiguration& base, std::string name, double value,
@@ -62,9 +62,10 @@ Change change_of_waves(const StudyConfiguration& base, std::string name, double 
                  .longest = longest,
                  .outputs = {}},
           .configuration = [=](double) { return base; },
-          .surface = [=](Surface surface, double change) {
-            return with_waves_scaled(std::move(surface), shortest, longest, std::exp(change));
-          }};
+          .surface =
+              [=](Surface surface, double change) {
+                return with_waves_scaled(std::move(surface), shortest, longest, std::exp(change));
+              }};
 }
 
 /// The octaves of wavelengths that a surface has, from the shortest to its longer side.
@@ -89,8 +90,8 @@ std::vector<Change> changes_of(const StudyConfiguration& base, const Grid2D& gri
   std::vector<Change> changes;
   for (const auto& [parameter, name] : EnumNames<StudyParameter>::values) {
     if (parameter == StudyParameter::rms_height) {
-      changes.push_back(change_of_waves(base, std::string(name), value_of(base, parameter), 0,
-                                        infinity));
+      changes.push_back(
+          change_of_waves(base, std::string(name), value_of(base, parameter), 0, infinity));
       changes.back().of.shortest = changes.back().of.longest = unknown;
       continue;
     }
@@ -122,8 +123,7 @@ EnsembleMean derivative(const std::vector<double>& above, const std::vector<doub
   std::vector<double> slopes;
   for (std::size_t i = 0; i < above.size(); ++i)
     if (known(i))
-      slopes.push_back(slope +
-                       count * (above[i] / sum_above - below[i] / sum_below) / (2 * step));
+      slopes.push_back(slope + count * (above[i] / sum_above - below[i] / sum_below) / (2 * step));
   return student_mean(slopes, Sign::either);
 }
 
@@ -261,11 +261,11 @@ std::string StudySensitivity::sentence(std::string_view output, std::size_t pres
   if (shares.empty() || !(sum > 0)) return "";
   const auto length = [](double value) { return format_quantity(value, Dimension::length, 3); };
   const Share& most = *std::ranges::max_element(shares, {}, &Share::size);
-  std::string text = fmt::format(
-      "at {} the waves {} {} give {:.0f} % of the response of {} to all waves",
-      format_quantity(pressures.at(pressure), Dimension::pressure, 3),
-      most.shortest > 0 ? "of " + length(most.shortest) + " to" : "below", length(most.longest),
-      100 * most.size / sum, output);
+  std::string text =
+      fmt::format("at {} the waves {} {} give {:.0f} % of the response of {} to all waves",
+                  format_quantity(pressures.at(pressure), Dimension::pressure, 3),
+                  most.shortest > 0 ? "of " + length(most.shortest) + " to" : "below",
+                  length(most.longest), 100 * most.size / sum, output);
   const Share& first = shares.front();
   const double share = first.size / sum;
   if (shares.size() > 1 && &first != &most)

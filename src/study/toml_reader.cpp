@@ -247,6 +247,22 @@ std::vector<double> TomlTable::values(std::string_view key, Dimension dimension)
   return all;
 }
 
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, Dimension dimension) {
+  const toml::node* node = Access::find(*this, key);
+  if (!node) return {};
+  std::vector<std::vector<double>> all;
+  const toml::array* outer = node->as_array();
+  check(outer != nullptr, key, "must be an array of rows, such as [[1, 2], [3, 4]]");
+  for (const toml::node& item : *outer) {
+    const toml::array* row = item.as_array();
+    check(row != nullptr, key, written(item) + " must be a row, such as [1, 2]");
+    all.emplace_back();
+    for (const toml::node& number : *row)
+      all.back().push_back(Access::quantity_of(*this, number, key, dimension));
+  }
+  return all;
+}
+
 std::vector<std::int64_t> TomlTable::integers(std::string_view key) {
   const toml::node* node = Access::find(*this, key);
   if (!node) return {};

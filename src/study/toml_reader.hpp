@@ -38,6 +38,8 @@ class TomlTable {
   /// A list of quantities, given as one quantity, an array of quantities, or a text that
   /// parse_values() can read.
   std::vector<double> values(std::string_view key, Dimension dimension);
+  /// The rows of a matrix of quantities, given as an array of arrays; empty without the key.
+  std::vector<std::vector<double>> rows(std::string_view key, Dimension dimension);
   std::vector<std::int64_t> integers(std::string_view key);
 
   /// Throws InvalidInput that names the line of the key.

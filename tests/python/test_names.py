@@ -100,7 +100,7 @@ PLAIN = {
     "tabor_parameter", "threshold", "tolerance", "u", "weight",
 }  # fmt: skip
 WITHOUT_UNIT = {
-    "coefficient", "direction", "in_plane", "normal", "uniform_normal", "uniform_tangential", "standard_deviation", "state", "table", "terms", "value",
+    "coefficient", "direction", "in_plane", "normal", "uniform_normal", "uniform_tangential", "standard_deviation", "state", "step", "stiffness", "table", "terms", "value",
 }  # fmt: skip
 
 

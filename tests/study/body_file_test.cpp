@@ -72,14 +72,18 @@ TEST_CASE("A file describes crystals by constants or by all stiffnesses", "[body
   CHECK(at(file.read(cube)) != at(file.read(cube + cut)));
   std::string rows = "[anisotropic]\nstiffness = [";
   for (const auto& row : silicon.c) {
-    for (const double value : row) rows += std::to_string(value / 1e9) + "e9, ";
-    rows += "\n  ";
+    rows += "[";
+    for (const double value : row) rows += "\"" + std::to_string(value / 1e9) + "GPa\", ";
+    rows += "],\n  ";
   }
   CHECK(at(file.read(rows + "]\n" + cut)) == at(file.read(cube + cut)));
 
   using Catch::Contains;
   CHECK_THROWS_WITH(file.read("[anisotropic]\nstiffness = [1, 2, 3]\n"),
-                    Contains(":2:") && Contains("3 numbers"));
+                    Contains(":2:") && Contains("must be a row"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nstiffness = 3\n"), Contains("array of rows"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nstiffness = [[1, 2], [2, 3]]\n"),
+                    Contains("6 rows of 6"));
   CHECK_THROWS_WITH(file.read(rows + "]\nc11 = 1\n"), Contains("c11"));
   CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1, 0]\n"), Contains("x"));
   CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1]\nx = [0, 0, 1]\n"),

@@ -104,9 +104,12 @@ TEST_CASE("Responses to heights, loads, amplitudes and moduli obey the laws of s
     // h → sh, p → sp, u_z → su_z: lengths across the surface grow, areas and stiffnesses stay; the
     // loss without slip is that of K_t. Cells enter one by one, and each derivative has noise of
     // some of them: about 1 % of K and 5 % of the loss over 2s.
-    for (const auto& [output, power] :
-         {std::pair("mean_gap", 1.0), {"contact_area_fraction", 0.0}, {"normal_stiffness", 0.0},
-          {"tangential_stiffness", 0.0}, {"work_per_cycle", 0.0}, {"damping_constant", 0.0}}) {
+    for (const auto& [output, power] : {std::pair("mean_gap", 1.0),
+                                        {"contact_area_fraction", 0.0},
+                                        {"normal_stiffness", 0.0},
+                                        {"tangential_stiffness", 0.0},
+                                        {"work_per_cycle", 0.0},
+                                        {"damping_constant", 0.0}}) {
       CAPTURE(output);
       const bool loss = std::string_view(output).starts_with("w") || output[0] == 'd';
       CHECK(of("rms_height", output) + of("pressure", output) + of("normal_amplitude", output) ==
@@ -121,9 +124,10 @@ TEST_CASE("Responses to heights, loads, amplitudes and moduli obey the laws of s
           for (const OutputSensitivity& band : one.outputs)
             if (band.output == output) sum += band.at_pressures[k].mean;
       // Each band has noise of its own.
-      CHECK(sum == Approx(of("rms_height", output)).margin(output[0] == 'm' ? 0.01
-                                                           : loss           ? 0.7
-                                                                            : 0.2));
+      CHECK(sum == Approx(of("rms_height", output))
+                       .margin(output[0] == 'm' ? 0.01
+                               : loss           ? 0.7
+                                                : 0.2));
     }
     // Without slip forces are linear in the tangential motion. The gap does not know it.
     CHECK(of("tangential_amplitude", "work_per_cycle") == Approx(2).margin(1e-9));
@@ -190,13 +194,13 @@ TEST_CASE("A design finds parameters that meet a target which other parameters m
   hidden.motion = EqualFrequency{amplitude, 1e-9, std::numbers::pi / 2, 1e3};
   std::get<GeneratedSurfaces>(hidden.surfaces).seeds = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
   const StudyResult made = run_study(hidden);
-  DesignProblem problem{.study = study,
-                        .target = {.output = loss ? "damping_constant" : "normal_stiffness",
-                                   .values = {},
-                                   .tolerance = 0.25,
-                                   .force = {}},
-                        .free = {{StudyParameter::rms_height, 30e-9, 400e-9},
-                                 {StudyParameter::hurst, 0.3, 0.95}}};
+  DesignProblem problem{
+      .study = study,
+      .target = {.output = loss ? "damping_constant" : "normal_stiffness",
+                 .values = {},
+                 .tolerance = 0.25,
+                 .force = {}},
+      .free = {{StudyParameter::rms_height, 30e-9, 400e-9}, {StudyParameter::hurst, 0.3, 0.95}}};
   if (loss) problem.free.push_back({StudyParameter::normal_amplitude, 0.5e-9, 5e-9});
   const auto means = loss ? made.damping(&DampingPoint::damping_constant)
                           : made.curve(&ForceSample::normal_stiffness);

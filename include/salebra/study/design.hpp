@@ -13,10 +13,10 @@ Dimension dimension_of_output(std::string_view output);
 
 /// A result that a contact should have at several forces.
 struct DesignTarget {
-  std::string output;         ///< an output of study_sensitivity(), such as "damping_constant"
-  std::vector<double> values; ///< > 0, SI: one for all forces, or one for each
-  double tolerance = 0.2;     ///< largest relative deviation of the mean over surfaces, 0.01 to 1
-  std::vector<double> force;  ///< at least 4, increasing, N
+  std::string output;          ///< an output of study_sensitivity(), such as "damping_constant"
+  std::vector<double> values;  ///< > 0, SI: one for all forces, or one for each
+  double tolerance = 0.2;      ///< largest relative deviation of the mean over surfaces, 0.01 to 1
+  std::vector<double> force;   ///< at least 4, increasing, N
 
   double value(std::size_t k) const { return values.size() == 1 ? values.front() : values.at(k); }
 };
@@ -63,7 +63,7 @@ constexpr void describe(auto&& visit, std::type_identity<DesignedParameter>) {
 /// What a design gives at one force, on surfaces that the search did not use.
 struct DesignPoint {
   double force = 0, pressure = 0;
-  double target = 0;      ///< SI
+  double target = 0;     ///< SI
   EnsembleMean output;   ///< mean over the surfaces with its 95 % interval
   EnsembleMean surface;  ///< 95 % prediction interval of one more surface
 };
@@ -77,6 +77,7 @@ constexpr void describe(auto&& visit, std::type_identity<DesignPoint>) {
   visit(&S::surface, Kept{"surface", "95 % interval of one more surface"});
 }
 
+/// Parameters for which a result is closest to a target, and what they give.
 struct Design {
   StudyConfiguration study;  ///< the study with the parameters of the design
   std::vector<DesignedParameter> parameters;

@@ -83,6 +83,7 @@ constexpr void describe(auto&& visit, std::type_identity<ParameterSensitivity>) 
   visit(&S::outputs, Kept{"outputs", "responses of the results"});
 }
 
+/// How the results of a study respond to its parameters and to bands of waves.
 struct StudySensitivity {
   std::vector<double> pressures;  ///< Pa
   Index surfaces = 0;
@@ -108,6 +109,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudySensitivity>) {
   visit(&S::interrupted, Kept{"interrupted", "true: there are no numbers"});
 }
 
+/// How sensitivities are computed.
 struct SensitivityOptions {
   double step = 0.07;  ///< change s of ln(parameter) to each side, 1e-3 to 0.2
   bool waves = true;   ///< also the octaves of wavelengths that the surfaces have
