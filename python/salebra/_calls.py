@@ -55,7 +55,7 @@ _LIKE = {
         "height": "amplitude center correlation_length crop depth highest max_amplitude length loaded_size lowest lx ly mean_plane"
         " min_prominence motion_scale noise pixel_size r radii radius_x radius_y range semi_x semi_y semi_z shift size start stop"
         " tangential_range target transverse width x0 x1 y0 y1",
-        "pressure": "c11 c13 c33 c44 c66 material modulus pressure_window window young", "force": "first_load force_amplitude", "wavenumber": "q qx qy",
+        "pressure": "c11 c12 c13 c33 c44 c66 material modulus pressure_window window young", "force": "first_load force_amplitude", "wavenumber": "q qx qy",
         "time": "checkpoint_every duration", "angular_frequency": "angular_frequencies", "threshold_frequency": "frequency",
         "velocity": "velocities", "phase": "direction", "psd": "densities", "moment0": "power", "work_of_adhesion": "work",
         "resistivity": "resistivity_1 resistivity_2", "conductivity": "conductivity_1 conductivity_2",
