@@ -436,7 +436,7 @@ progress : bool or callable
           },
           nb::arg("parameter"), nb::arg("output"),
           "d ln output/d ln parameter over the pressure; None if it is not known.")
-      .def("sentence", &StudySensitivity::sentence, nb::arg("output"), nb::arg("pressure"),
+      .def("sentence", &StudySensitivity::sentence, nb::arg("output"), nb::arg("index"),
            "Which waves decide a result at the pressure with this index.");
   m.def(
       "study_sensitivity",
