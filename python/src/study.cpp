@@ -436,8 +436,13 @@ progress : bool or callable
           },
           nb::arg("parameter"), nb::arg("output"),
           "d ln output/d ln parameter over the pressure; None if it is not known.")
-      .def("sentence", &StudySensitivity::sentence, nb::arg("output"), nb::arg("index"),
-           "Which waves decide a result at the pressure with this index.");
+      .def(
+          "sentence",
+          [](const StudySensitivity& self, const std::string& output, std::size_t index) {
+            return self.sentence(output, index);
+          },
+          nb::arg("output"), nb::arg("index"),
+          "Which waves decide a result at the pressure with this index.");
   m.def(
       "study_sensitivity",
       [](const StudyConfiguration& configuration, double step, bool waves,
