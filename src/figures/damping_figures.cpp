@@ -54,19 +54,10 @@ Passage passage(const SampledMotion& path, double level, bool rising, std::size_
   return {};
 }
 
-// An axis whose range is a little larger than that of the values.
-Axis roomy(Axis axis, const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  axis.low = low - 0.05 * (high - low);
-  axis.high = high + 0.05 * (high - low);
-  if (!(*axis.low < *axis.high)) axis.low = axis.high = {};
-  return axis;
-}
-
 Panel path_panel(const SampledMotion& path) {
   Panel panel;
   panel.title = "A point of the body and the spring it meets";
-  panel.x = roomy({.label = "x", .unit = "m"}, path.displacement);
+  panel.x = {.label = "x", .unit = "m"};
   panel.y = {.label = "height over the undeformed surface", .unit = "m"};
   const auto [low, high] = std::ranges::minmax(path.indentation);
   const double level = 0.5 * (low + high);
@@ -180,8 +171,8 @@ Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
   figure.panels.push_back(path_panel(path));
   figure.panels.push_back(
       {.title = loss.transverse_force.empty() ? "Loop: its area is the loss" : "Loop along x",
-       .x = roomy({.label = "x", .unit = "m"}, path.displacement),
-       .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
+       .x = {.label = "x", .unit = "m"},
+       .y = {.label = "tangential force F_x", .unit = "N"}});
   figure.panels.back().curves = {{.quantity = "tangential_force",
                                   .x = path.displacement,
                                   .y = loss.tangential_force,

@@ -185,7 +185,7 @@ TEST_CASE("The picture of a study draws the damping constants of its table with 
       CHECK_THAT(drawing.script(), Contains("with yerrorbars"));
       CHECK_THAT(drawing.script(),
                  Contains(std::string(slip.empty() ? "'without slip" : "'with slip, µ = 0.3") +
-                          (sample ? ", 95 %'" : ", ± error'")));
+                          (sample ? ", 95 % interval'" : ", ± error'")));
       CHECK_THAT(drawing.script(),
                  Contains("nominal pressure p (") && Contains("normal force F ("));
     }
@@ -657,7 +657,7 @@ TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answer
   CHECK((gap[1] - gap[0]) / (std::log(10) * (pressure[0] - pressure[1])) ==
         Approx(1e9 * fit.answer()["decay_length"].get<double>()).epsilon(1e-6));
 
-  CHECK_THAT(fit.script(), Contains("title 'bem'"));
+  CHECK_THAT(fit.script(), Contains("title 'boundary elements'"));
   test.write("mine.csv",
              "# model: my bench_1\nmean_gap [m],pressure "
              "[Pa]\n3.0e-8,1.0e6\n2.0e-8,3.0e6\n1.0e-8,9.0e6\n0.0,27.0e6\n");
@@ -781,7 +781,7 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
     INFO(command);
     const Drawing drawing(test, command);
     CHECK_THAT(drawing.script(),
-               Contains("'Rms height 0 m'") && !Contains("power spectral density"));
+               Contains("'rms height 0 m'") && !Contains("power spectral density"));
   }
 }
 
