@@ -203,9 +203,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     .y = axis_of("work_per_cycle"),
                     .legend = Legend::top_left},
                    {.title = "Damping constant", .x = x, .y = axis_of("damping_constant")},
-                   {.title = "Error of the closed form",
+                   {.title = "Error of the closed form without slip",
                     .x = x,
-                    .y = {.label = "closed form over loss without slip − 1 (%)"}}};
+                    .y = {.label = "closed form over loss − 1 (%)"}}};
   const std::size_t directions = results.size() / values.size();
   const std::string form = "closed form";
   // Points show where the values are; a fine series is a line.
@@ -341,11 +341,16 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
     return image;
   };
 
-  Figure figure{.kind = "stress_map",
-                .caption =
-                    "Tangential stress and pressure over radius and phase; the black line is "
-                    "the edge of the contact.",
-                .columns = 2};
+  Figure figure{
+      .kind = "stress_map",
+      .caption =
+          "Tangential stress τ (a) and pressure p (c) over the radius and the phase of the "
+          "normal motion, white outside the contact, whose edge is the black line; τ "
+          "over the radius while the indenter is pulled out (b) and pressed in (d). "
+          "Both singularities go beyond the scale. " +
+          std::visit([](const auto& one) { return motion_text(one); }, motion) +
+          ", δ = " + format_quantity(indentation, Dimension::length, 4) + ".",
+      .columns = 2};
   Panel& shear = figure.panels.emplace_back();
   shear.title = "(a) tangential stress τ";
   shear.x = radius;
@@ -427,8 +432,10 @@ Figure figure_of(const FrictionMap& map) {
   parts.curves = {relaxation, slip, sum};
   return {.kind = "friction_map",
           .caption =
-              "Loss with friction over the loss without slip, over the friction number M and "
-              "the phase.",
+              "(a) Loss with friction W(μ) over the loss without slip W(∞), over the friction "
+              "number M and the phase φ_0, with lines of equal ratio; (b) its deviation from 1 at "
+              "single phases; (c) its parts at one phase: springs that open, and slip where the "
+              "contact never opens.",
           .panels = {panel, missing, parts},
           .columns = 3};
 }

@@ -18,8 +18,12 @@ void set_limits(const std::vector<Panel*>& panels, Axis Panel::*axis) {
     high = std::max(high, value);
   };
   for (const Panel* panel : panels) {
+    const auto drawn = [&](double y) {
+      return std::isfinite(y) && (y > 0 || !panel->y.logarithmic);
+    };
     for (const Curve& curve : panel->curves) {
-      std::ranges::for_each(across ? curve.x : curve.y, hold);
+      for (std::size_t k = 0; k < curve.y.size(); ++k)
+        if (drawn(curve.y[k])) hold(across ? curve.x[k] : curve.y[k]);
       if (across) continue;
       std::ranges::for_each(curve.high, hold);
       // An error bar that ends near zero would extend a logarithmic axis by decades.

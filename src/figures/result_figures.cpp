@@ -224,6 +224,9 @@ Figure figure_of(const StressMap& map) {
                              .color = 6}}};
   };
   return {.kind = "stress_map",
+          .caption =
+              "Shear stress and pressure over the radius and the phase of the normal motion; "
+              "the black line is the edge of the contact.",
           .panels = {panel(map.shear, stress, Palette::diverging),
                      panel(map.contact_pressure, axis_of("contact_pressure", false, "pressure p"),
                            Palette::sequential)},

@@ -106,13 +106,13 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
 }
 
 Figure figure_of(const RegimeMap& map, double omega) {
-  Figure figure{.kind = "regimes",
-                .caption =
-                    "Loss W of an oscillation to and fro over the excursion X at the velocity v, "
-                    "over its loss without slip, with the borders of the regimes: no slip below "
-                    "the black line, partial slip between the lines, sliding above the red line. "
-                    "Below the dashed line the excursion is shorter than the way in one normal "
-                    "cycle; no loss is computed there."};
+  Figure figure{
+      .kind = "regimes",
+      .caption =
+          "Loss W of an oscillation to and fro over the excursion X at the velocity v, "
+          "over its loss without slip, with the borders of the regimes: no slip below "
+          "the black line, partial slip between the lines, sliding above the red line. White: "
+          "the excursion is shorter than the way in one normal cycle."};
   Panel& panel = figure.panels.emplace_back();
   panel.title = "loss of a slow oscillation over that without slip";
   const auto axis = [](const char* label, const char* unit, const std::vector<double>& values) {
