@@ -141,6 +141,11 @@ class PanelScript {
     set_linear_tics(y_, layout.labels(false));
     top_ = second_axis(panel.second_x, panel.x, x_, across);
     right_ = second_axis(panel.second_y, panel.y, y_, layout.labels(false));
+  }
+
+  /// Chooses the places of names and legend in a frame with this room on the left, in pixels.
+  void arrange(double left) {
+    width_ = layout_.width - left - right();
     find_obstacles();
     place_names();
   }
@@ -149,8 +154,7 @@ class PanelScript {
   int legend_rows() const {
     if (legend_ != below) return 0;
     const double wide = legend_width(), entries = legend_entries();
-    return static_cast<int>(std::ceil(
-        entries / std::max(1.0, std::floor((layout_.width - left() - right()) / wide - 0.1))));
+    return static_cast<int>(std::ceil(entries / std::max(1.0, std::floor(width_ / wide - 0.1))));
   }
 
   /// Room on the left of the frame for the label, the numbers and the tics of y, in pixels.
@@ -225,7 +229,6 @@ class PanelScript {
 
   void find_obstacles() {
     if (!x_.low || !x_.high || !y_.low || !y_.high) return;
-    width_ = layout_.width - left() - right();
     height_ = layout_.frame_height;
     const auto segment = [&](double x0, double y0, double x1, double y1) {
       const double steps = std::ceil(std::hypot(x1 - x0, y1 - y0) / 3);
@@ -514,7 +517,8 @@ class PanelScript {
   DisplayAxis x_, y_;
   std::optional<DisplayAxis> top_, right_;
   std::optional<Raster> raster_;
-  /// Size of the frame in pixels; 0: the limits are unknown, so texts cannot avoid curves.
+  /// Size of the frame in pixels. height_ is 0 if the limits are unknown, so that texts cannot
+  /// avoid curves.
   double width_ = 0, height_ = 0;
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
@@ -555,14 +559,19 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
       bottoms = tops, lefts(static_cast<std::size_t>(columns), 0);
   for (int k = 0; k < panels; ++k) {
     scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout, body);
-    const PanelScript& one = scripts.back();
+    double& left = lefts[static_cast<std::size_t>(k % columns)];
+    left = std::max(left, scripts.back().left());
+  }
+  // Lines of a legend are farther apart in an SVG, and the label of x is lower.
+  const double line = (format == PictureFormat::svg ? 1.65 : 1.4) * layout.font,
+               gap = (format == PictureFormat::svg ? 1.5 : 0.4) * layout.font;
+  for (int k = 0; k < panels; ++k) {
+    PanelScript& one = scripts[static_cast<std::size_t>(k)];
+    one.arrange(lefts[static_cast<std::size_t>(k % columns)]);
     const auto row = static_cast<std::size_t>(k / columns);
     const int legend = one.legend_rows();
     tops[row] = std::max(tops[row], one.top());
-    bottoms[row] =
-        std::max(bottoms[row], layout.bottom() + (1.1 * legend + (legend > 0)) * layout.line());
-    double& left = lefts[static_cast<std::size_t>(k % columns)];
-    left = std::max(left, one.left());
+    bottoms[row] = std::max(bottoms[row], layout.bottom() + (legend > 0 ? legend * line + gap : 0));
   }
   const auto height_of = [&](int row) {
     const auto at = static_cast<std::size_t>(row);

@@ -143,7 +143,8 @@ Panel distribution_panel(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
   Panel panel;
-  panel.title = fmt::format("skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
+  panel.title = fmt::format("skewness {}{:.2f}, kurtosis {:.2f}", heights.skewness < 0 ? "−" : "",
+                            std::abs(heights.skewness), heights.kurtosis);
   panel.x = axis_of("height", false, "height");
   panel.y = axis_of("height_density", false, "probability density");
   panel.curves.push_back({.name = "heights",
@@ -216,7 +217,7 @@ Figure figure_of(const SurfaceTwin& twin) {
   panel.x = axis_of("wavenumber", true, "wave number q");
   panel.y = axis_of("psd", true, "power spectral density C(q)");
   panel.legend = Legend::bottom_left;
-  panel.curves.push_back({.name = "all scans together, 95 % confidence band",
+  panel.curves.push_back({.name = "all scans, 95 % confidence band",
                           .quantity = "psd",
                           .x = twin.spectrum.wavenumber,
                           .y = twin.spectrum.psd,
