@@ -16,6 +16,7 @@
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/surface/lay.hpp>
 
 #include "axes.hpp"
@@ -207,6 +208,13 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     .x = x,
                     .y = {.label = "closed form over loss − 1 (%)"}}};
   const std::size_t directions = results.size() / values.size();
+  // The headline of the table: the damping constant at its last value.
+  if (const DampingResult& last = results.back();
+      directions == 1 && is_quantity(quantity) && std::isfinite(last.damping_constant))
+    figure.panels[1].title =
+        "γ = " +
+        error_text(last.damping_constant, last.damping_constant_error(), Dimension::damping) +
+        " at " + format_quantity(values.back(), find_quantity(quantity).dimension, 3);
   const std::string form = "closed form";
   // Points show where the values are; a fine series is a line.
   const Style style = values.size() > 30 ? Style::line : Style::line_and_points;
