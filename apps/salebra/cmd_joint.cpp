@@ -309,6 +309,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (session.has_plot()) {
     const detail::JointLoop loop = loop_of(arguments, found, session);
     session.plot(figures::figure_of(found.losses, loop.displacement, loop.tangential_force,
+                                    found.state.force, *arguments.assumptions.friction_coefficient,
                                     {values_of(tables.front(), "work_per_cycle_low"),
                                      values_of(tables.front(), "work_per_cycle_high")}));
   }

@@ -33,7 +33,7 @@ _PREFIXED = PREFIXED | {"m/s", "J/m", "N/m²", "N/m^2"}
 _EDITABLE: Any = {"svg.fonttype": "none", "pdf.fonttype": 42}  # text remains text
 # A figure for a journal, whose width is given.
 _JOURNAL: Any = {"font.size": 7, "axes.titlesize": 7, "lines.linewidth": 1, "lines.markersize": 3, "axes.linewidth": 0.6}
-_PANEL = 0.079, 0.78  # narrowest panel of a journal's figure, m; height over width
+_PANEL, _PAGE = 0.079, 0.24  # narrowest panel and height of a page of a journal, m
 _PLACES: WeakKeyDictionary[Axes, Any] = WeakKeyDictionary()  # of axes of the user, without a legend below
 
 
@@ -96,8 +96,9 @@ def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
 
     label = axis.label.get_fontsize() * 0.55
     many = max(3, int(points / ((9 if axis.axis_name == "x" else 4) * label)))
-    ends = [abs(end) for end in axis.get_view_interval()]
-    unit, factor = _prefixed(described.unit, math.sqrt(ends[0] * ends[1]) if (main or axis).get_scale() == "log" else max(ends))
+    ends = [abs(end) * getattr(described, "factor", 1) for end in (main or axis).get_view_interval()]
+    largest = math.sqrt(ends[0] * ends[1]) if (main or axis).get_scale() == "log" else max(ends)
+    unit, factor = _prefixed(described.unit, getattr(described, "prefix_of", None) or largest)
     axis.set_label_text(_wrapped(described.label + (f" ({unit})" if unit else ""), points, axis.label.get_fontsize()))
     formatter: Any = FuncFormatter(lambda value, _: _number(value * factor))
     formatter.unit = described.unit  # which results on the same axes have to share
@@ -230,19 +231,8 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
     for shade in panel.ranges:
         (ax.axvspan if shade.vertical else ax.axhspan)(shade.low, shade.high, color="#808080", alpha=0.15, lw=0, label=_text(shade.name) or "_")
     if fresh:
-        for limits, limit, described in ((ax.get_xlim, ax.set_xlim, panel.x), (ax.get_ylim, ax.set_ylim, panel.y)):
+        for limit, described in ((ax.set_xlim, panel.x), (ax.set_ylim, panel.y)):
             limit(described.low, described.high)
-            low, high = limits()
-            size = max(abs(low), abs(high))
-            if not panel.image and not described.logarithmic and described.low is described.high is None and high - low < 0.011 * size:
-                limit(low - 0.02 * size, high + 0.02 * size)  # a value that is constant to within a percent is not magnified
-            if described.low is not None and described.high is None and not described.logarithmic:
-                limit(low, high + 0.05 * (high - low))  # the margin of the data alone is too narrow
-        # A bar that ends near zero would extend a logarithmic axis by decades.
-        values = [value for curve in panel.curves for value in (curve.y, () if curve.style == "points" else curve.low)]
-        positive = [value for value in np.concatenate(values or [[]]) if value > 0]
-        if panel.y.logarithmic and panel.y.low is None and positive and ax.get_ylim()[0] < min(positive) / 10:
-            ax.set_ylim(bottom=min(positive) / 2)
     else:
         ax.autoscale()
     _scale(ax.xaxis, panel.x, _points(ax, 0))
@@ -295,16 +285,20 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True) ->
     count = len(figure.panels)
     columns = min(count, figure.columns or math.ceil(math.sqrt(count)))
     if width:
-        columns = min(columns, max(1, int(width / _PANEL[0])))
+        columns = min(columns, max(1, int(width / _PANEL)))
     with rc_context(_JOURNAL) if width else nullcontext():
         across = width / 0.0254 if width else rcParams["figure.figsize"][0] * math.sqrt(columns)
         rows = math.ceil(count / columns)
-        high = _PANEL[1] * across / columns * rows
+        # Many rows are lower, so that they come closer to the height of a page.
+        high = max(0.54 * across / columns * rows, min(0.78 * across / columns * rows, _PAGE / 0.0254 if width else math.inf))
         drawn.set_size_inches(across, high)
         if figure.title:
             drawn.suptitle(_wrapped(figure.title, 72 * across, rcParams["font.size"] * 1.2))
+        grid = drawn.add_gridspec(rows, 2 * columns)
         for k, panel in enumerate(figure.panels):
-            _panel(drawn.add_subplot(rows, columns, k + 1), panel, {})
+            row, column = divmod(k, columns)
+            left = 2 * column + max(0, (row + 1) * columns - count)  # a last row that is not full is in the middle
+            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {})
         # Room for the legends below the panels.
         drawn.draw_without_rendering()
         legends = [ax.get_legend() for ax in drawn.axes if ax.get_subplotspec()]

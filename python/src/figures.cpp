@@ -116,14 +116,15 @@ void bind_laws() {
   curve.def(
       "figure",
       [](const ForceCurve& self, const Fit& fit) {
-        if (const auto* given = std::get_if<ExponentialFit>(&fit)) return figure_of(self, *given);
+        if (const auto* given = std::get_if<ExponentialFit>(&fit))
+          return with_limits(figure_of(self, *given));
         std::optional<ExponentialFit> found;
         try {
           if (std::get<bool>(fit)) found = fit_exponential(self, {});
         } catch (const InvalidInput&) {
           // Too few points in the window: the curve is drawn alone.
         }
-        return figure_of(self, found);
+        return with_limits(figure_of(self, found));
       },
       nb::arg("fit") = true,
       "The curve and an exponential law fitted to it, as data. fit=False: no law; an "
@@ -134,11 +135,11 @@ void bind_laws() {
          "figure",
          [](const ContactLaw& self, const std::variant<double, Values>& indentation) {
            if (const auto* several = std::get_if<Values>(&indentation))
-             return figure_of(self, several->values);
+             return with_limits(figure_of(self, several->values));
            const auto* indenter = dynamic_cast<const IndenterLaw*>(&self);
            require_that(indenter != nullptr, "indentation",
                         "is one number, which draws an IndenterLaw; give an array for F(δ)");
-           return figure_of(*indenter, std::get<double>(indentation));
+           return with_limits(figure_of(*indenter, std::get<double>(indentation)));
          },
          nb::arg("indentation"),
          "F(δ) at several indentations, m; the contact of an IndenterLaw at one indentation: "

@@ -106,7 +106,7 @@ function axisLayout(axis, mode, scale, values) {
     showline: true, ticks: "outside", tickcolor: color("line"), ticklen: 4, exponentformat: "power", showexponent: "all", minexponent: 4,
     minor: mode === "log" ? {showgrid: false, ticks: "outside", ticklen: 2, tickcolor: color("line")} : {},
     ...(mode === "log" ? logarithmicTicks(values.map((v) => v * scale.factor)) : {}),
-    ...(axis.limits && mode === "linear" ? {range: axis.limits.map((limit) => limit * scale.factor)} : {}),
+    ...(axis.limits && axis.log === (mode === "log") ? {range: axis.limits.map((limit) => (axis.log ? Math.log10(limit * scale.factor) : limit * scale.factor))} : {}),
     ...(axis.layout ?? {}),
   };
 }
@@ -150,7 +150,6 @@ function draw(spec, state, plot, legend, figure) {
   layout.shapes = (content.shapes ?? []).map((shape) => place(shape, false));
   layout.annotations = (content.annotations ?? []).map((note) => place(note, true));
   Object.assign(layout, content.layout?.(scales) ?? {});
-  for (const [name, extra] of Object.entries(content.axes ?? {})) Object.assign(layout[name], extra);
   Plotly.react(plot, traces, layout, {responsive: true, displaylogo: false, displayModeBar: matchMedia("(pointer: coarse)").matches ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: {filename: spec.id, scale: 2}});
   drawLegend(content.series, state, legend, figure);
@@ -241,7 +240,7 @@ const libraryText = (text) => text.replace(/\\(.)|([_^])(?:\{([^}]*)\}|(.))/gu, 
   .replace(/(\d) (?=(?:[afpnµmkMG]?(?:m|N|Pa|J)|%)(?:[²\s,;.)]|$))/gu, `$1${NARROW}`)
   .replace(/(?<![\p{L}\d‹]|\d[\s\u202f])[pFūlhKEGuvWγCqH](?![\p{L}\d›])/gu, "‹$&›");
 
-const libraryAxis = (axis, more) => ({label: libraryText(axis.label), unit: axis.unit || "1", ...more, ...(axis.logarithmic ? {log: true} : {})});
+const libraryAxis = (axis, fixed) => ({label: libraryText(axis.label), unit: axis.unit || "1", log: axis.logarithmic, fixed, ...(axis.high === undefined ? {} : {limits: [axis.low, axis.high]})});
 
 /** A value with its unit, in words for the pointer and for screen readers. */
 const worded = (axis, value) => `${libraryText(axis.label)} ${quantity(value, axis.unit || "1", 4)}`;
@@ -271,7 +270,7 @@ function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
   const positive = (letter) => curves.every((curve) => curve[letter].every((v) => !known(v) || v > 0));
   const span = (curve) => { const there = curve.y.filter(known); return `${plainText(nameOf(curve))} from ${quantity(there[0], unit, 3)} to ${quantity(there.at(-1), unit, 3)}`; };
   return {
-    axes: {x: libraryAxis(x, {log: false, fixed: !positive("x")}), y: libraryAxis(y, {log: false, fixed: !positive("y"), ...(y.high === undefined ? {} : {limits: [y.low, y.high]})})},
+    axes: {x: libraryAxis(x, !positive("x")), y: libraryAxis(y, !positive("y"))},
     alt: () => `${plainText(libraryText(y.label))} over ${plainText(libraryText(x.label))}: ${curves.filter((curve) => curve.y.some(known)).map(span).join("; ")}${lines.map((line) => `; ${plainText(libraryText(line.name))} at ${quantity(line.at, (line.vertical ? x : y).unit || "1", 3)}`).join("")}.`,
     columns: () => (common ? [{label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves[0].x}, ...curves.flatMap((curve) => estimateColumns(nameOf(curve), keyOf(curve), unit, {mean: curve.y, low: curve.low, high: curve.high}))]
       : [{label: "curve", key: "curve", unit: "1", values: curves.flatMap((curve, i) => curve.x.map(() => i + 1))}, {label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves.flatMap((curve) => curve.x)}, {label: libraryText(y.label), key: y.quantity || "y", unit, values: curves.flatMap((curve) => curve.y)}]),
@@ -285,7 +284,6 @@ function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
         ...lines.map(({at, vertical}) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: {color: color("muted"), width: 1.5, dash: "dash"}}))],
       annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12},
         ...(vertical ? {x: at ?? (low + high) / 2, y: 1, yref: "paper", yanchor: "top"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
-      axes: y.low === undefined || y.high !== undefined ? {} : {yaxis: {rangemode: "tozero"}},
     }),
   };
 }

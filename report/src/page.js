@@ -90,7 +90,7 @@ function conclusion(main, point) {
       element.append(h("p", {class: "verdict"}, h("strong", {}, "Assumptions of the damping constant. ")));
       element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Assumptions"}, point.verdicts.replaceAll("`", "")));
     }
-    if (point.motion) element.append(h("p", {class: "verdict"}, libraryText(point.motion)));
+    if (point.motion) element.append(h("p", {class: "verdict"}, rich(libraryText(point.motion))));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},

@@ -12,6 +12,7 @@
 #include <salebra/analysis/damping.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
+#include <salebra/study/configuration.hpp>
 #include <salebra/study/realisation.hpp>
 
 #include "results/columns.hpp"
@@ -114,6 +115,11 @@ std::string error_text(double value, double error, Dimension dimension) {
   return fmt::format("{} ± {:.2g} %", text, 100 * error / std::abs(value));
 }
 
+std::string title_of(std::string_view name) {
+  const auto model = std::ranges::find(contact_models(), name, &StudyModel::name);
+  return model == contact_models().end() ? plain_text(name) : model->title;
+}
+
 bool spans_decades(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   return low > 0 && high > 30 * low;
@@ -128,13 +134,19 @@ bool grows_by_factors(const std::vector<double>& values) {
   return true;
 }
 
+std::vector<double> cells(Index count, double step) {
+  std::vector<double> centres = positions(count, step);
+  for (double& centre : centres) centre += 0.5 * step;
+  return centres;
+}
+
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                 const Axis& scale) {
   return {.title = title,
           .x = {.label = "x", .unit = "m"},
           .y = {.label = "y", .unit = "m"},
-          .image = Image{.x = positions(grid.nx, grid.dx()),
-                         .y = positions(grid.ny, grid.dy()),
+          .image = Image{.x = cells(grid.nx, grid.dx()),
+                         .y = cells(grid.ny, grid.dy()),
                          .values = values,
                          .scale = scale},
           .equal_scales = true};

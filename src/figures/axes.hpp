@@ -19,11 +19,19 @@ std::string interval_text(double value, double low, double high, Dimension dimen
 /// "25.3 nm ± 2 %"; without the error where it is unknown, and without the value where it is no larger
 /// than its error.
 std::string error_text(double value, double error, Dimension dimension);
+/// The title of the contact model of this name; any other name as it is.
+std::string title_of(std::string_view name);
 /// Whether positive values span more than 1.5 decades.
 bool spans_decades(const std::vector<double>& values);
 /// Whether the values of a list call for a logarithmic axis: they span decades, or each is the one
 /// before times the same factor.
 bool grows_by_factors(const std::vector<double>& values);
+/// Sets the limits of these axes that have none, so that all curves, bands and named reference lines
+/// of the panels lie between them, with a margin; an axis without negative values does not extend
+/// below 0. The axes get the same limits, and are linear or logarithmic as the first one.
+void set_limits(const std::vector<Panel*>& panels, Axis Panel::*axis);
+/// The centres of cells that begin at 0, so that a map ends at the size of the surface.
+std::vector<double> cells(Index count, double step);
 /// A map of a field over the cells of a grid, in colours.
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                 const Axis& scale);

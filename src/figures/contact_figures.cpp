@@ -63,11 +63,9 @@ void add_fit(Panel& panel, const ExponentialFit& fit) {
 /// −dū/d ln p between neighbouring loads, and l of the fit: equal for an exponential law.
 Panel local_panel(const LocalDecayLength& local, const std::optional<ExponentialFit>& fit) {
   Panel panel{.x = axis_of("mean_gap", false, "mean gap ū"),
-              .y = axis_of("local_decay_length", false, "local decay length −dū/d ln p")};
-  panel.curves.push_back({.name = "between loads",
-                          .x = local.mean_gap,
-                          .y = local.decay_length,
-                          .style = Style::line_and_points});
+              .y = axis_of("local_decay_length", false, "decay length −dū/d ln p")};
+  panel.curves.push_back(
+      {.x = local.mean_gap, .y = local.decay_length, .style = Style::line_and_points});
   if (fit) {
     panel.lines.push_back(
         {.at = fit->decay_length, .name = "l of the fit", .quantity = "decay_length"});
@@ -78,7 +76,7 @@ Panel local_panel(const LocalDecayLength& local, const std::optional<Exponential
 
 /// How far the pressures are from the fitted law.
 Panel deviation_panel(const ForceCurve& curve, const ExponentialFit& fit) {
-  Curve points{.name = "p over the fit, less 1", .style = Style::line_and_points};
+  Curve points{.style = Style::line_and_points};
   const auto& [low, high] = std::pair(fit.window.pressure_min, fit.window.pressure_max);
   for (const ForceSample& sample : curve.samples) {
     // Far from the window the deviation would use up the axis.
@@ -111,7 +109,7 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
                             "decay length and the deviation of the pressure from the law."
                           : ".")};
   const Axis pressure = axis_of("pressure", true, "nominal pressure p");
-  Curve gaps = points_of(curve, curve.model.empty() ? "curve" : plain_text(curve.model),
+  Curve gaps = points_of(curve, curve.model.empty() ? "curve" : title_of(curve.model),
                          &ForceSample::mean_gap, &ForceSample::pressure);
   // A measured curve may have no gap but an indentation.
   const bool indented = gaps.x.empty();
@@ -149,8 +147,8 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
     const std::string way =
         std::isnan(one.direction()) ? "" : ", " + direction_in_words(one.direction());
     add(one, "tangential, K_t" + way, "tangential_stiffness", &ForceSample::tangential_stiffness);
-    Curve quotient =
-        points_of(one, "K_t/K" + way, &ForceSample::pressure, &ForceSample::tangential_stiffness);
+    Curve quotient = points_of(one, way.substr(std::min<std::size_t>(2, way.size())),
+                               &ForceSample::pressure, &ForceSample::tangential_stiffness);
     std::size_t k = 0;
     for (const ForceSample& sample : one.samples)
       if (sample.converged && std::isfinite(sample.pressure) &&
@@ -189,23 +187,23 @@ Figure figure_of(const ForceCurve& loading, const ForceCurve& unloading) {
 }
 
 Figure figure_of(const Grid2D& grid, const NormalContactState& state) {
-  const Field touching =
-      (state.contact_pressure > 0)
-          .select(state.contact_pressure, std::numeric_limits<double>::quiet_NaN());
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const auto touches = state.contact_pressure > 0;
+  const Field pressure = touches.select(state.contact_pressure, nothing),
+              open = touches.select(nothing, state.gap);
   const std::string share =
       fmt::format("contact area A/A_0 = {:.3g} % at {}", 100 * state.contact_area_fraction,
                   format_quantity(state.mean_pressure, Dimension::pressure, 3));
   const std::string gap = "mean gap " + format_quantity(state.mean_gap, Dimension::length, 3);
   return {.kind = "contact",
           .caption =
-              "Contact pressure on the spots, white where the bodies do not touch, and gap, at "
-              "the nominal pressure " +
+              "Contact pressure on the spots, and gap beside them, both white elsewhere, at the "
+              "nominal pressure " +
               format_quantity(state.mean_pressure, Dimension::pressure, 3) + ".",
-          .panels = {map_panel(
-                         grid,
-                         state.contact_pressure.maxCoeff() > 0 ? touching : state.contact_pressure,
-                         share, axis_of("contact_pressure", false, "pressure")),
-                     map_panel(grid, state.gap, gap, axis_of("gap", false, "gap"))},
+          .panels = {map_panel(grid, touches.any() ? pressure : state.contact_pressure, share,
+                               axis_of("contact_pressure", false, "pressure")),
+                     map_panel(grid, touches.all() ? state.gap : open, gap,
+                               axis_of("gap", false, "gap"))},
           .columns = 2};
 }
 

@@ -16,6 +16,7 @@
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/surface/lay.hpp>
 
 #include "axes.hpp"
@@ -54,19 +55,10 @@ Passage passage(const SampledMotion& path, double level, bool rising, std::size_
   return {};
 }
 
-// An axis whose range is a little larger than that of the values.
-Axis roomy(Axis axis, const std::vector<double>& values) {
-  const auto [low, high] = std::ranges::minmax(values);
-  axis.low = low - 0.05 * (high - low);
-  axis.high = high + 0.05 * (high - low);
-  if (!(*axis.low < *axis.high)) axis.low = axis.high = {};
-  return axis;
-}
-
 Panel path_panel(const SampledMotion& path) {
   Panel panel;
   panel.title = "A point of the body and the spring it meets";
-  panel.x = roomy({.label = "x", .unit = "m"}, path.displacement);
+  panel.x = {.label = "x", .unit = "m"};
   panel.y = {.label = "height over the undeformed surface", .unit = "m"};
   const auto [low, high] = std::ranges::minmax(path.indentation);
   const double level = 0.5 * (low + high);
@@ -180,8 +172,8 @@ Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
   figure.panels.push_back(path_panel(path));
   figure.panels.push_back(
       {.title = loss.transverse_force.empty() ? "Loop: its area is the loss" : "Loop along x",
-       .x = roomy({.label = "x", .unit = "m"}, path.displacement),
-       .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
+       .x = {.label = "x", .unit = "m"},
+       .y = {.label = "tangential force F_x", .unit = "N"}});
   figure.panels.back().curves = {{.quantity = "tangential_force",
                                   .x = path.displacement,
                                   .y = loss.tangential_force,
@@ -212,10 +204,17 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     .y = axis_of("work_per_cycle"),
                     .legend = Legend::top_left},
                    {.title = "Damping constant", .x = x, .y = axis_of("damping_constant")},
-                   {.title = "Error of the closed form",
+                   {.title = "Error of the closed form without slip",
                     .x = x,
-                    .y = {.label = "closed form over loss without slip − 1 (%)"}}};
+                    .y = {.label = "closed form over loss − 1 (%)"}}};
   const std::size_t directions = results.size() / values.size();
+  // The headline of the table: the damping constant at its last value.
+  if (const DampingResult& last = results.back();
+      directions == 1 && is_quantity(quantity) && std::isfinite(last.damping_constant))
+    figure.panels[1].title =
+        "γ = " +
+        error_text(last.damping_constant, last.damping_constant_error(), Dimension::damping) +
+        " at " + format_quantity(values.back(), find_quantity(quantity).dimension, 3);
   const std::string form = "closed form";
   // Points show where the values are; a fine series is a line.
   const Style style = values.size() > 30 ? Style::line : Style::line_and_points;
@@ -350,11 +349,16 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
     return image;
   };
 
-  Figure figure{.kind = "stress_map",
-                .caption =
-                    "Tangential stress and pressure over radius and phase; the black line is "
-                    "the edge of the contact.",
-                .columns = 2};
+  Figure figure{
+      .kind = "stress_map",
+      .caption =
+          "Tangential stress τ (a) and pressure p (c) over the radius and the phase of the "
+          "normal motion, white outside the contact, whose edge is the black line; τ "
+          "over the radius while the indenter is pulled out (b) and pressed in (d). "
+          "Both singularities go beyond the scale. " +
+          std::visit([](const auto& one) { return motion_text(one); }, motion) +
+          ", δ = " + format_quantity(indentation, Dimension::length, 4) + ".",
+      .columns = 2};
   Panel& shear = figure.panels.emplace_back();
   shear.title = "(a) tangential stress τ";
   shear.x = radius;
@@ -436,8 +440,10 @@ Figure figure_of(const FrictionMap& map) {
   parts.curves = {relaxation, slip, sum};
   return {.kind = "friction_map",
           .caption =
-              "Loss with friction over the loss without slip, over the friction number M and "
-              "the phase.",
+              "(a) Loss with friction W(μ) over the loss without slip W(∞), over the friction "
+              "number M and the phase φ_0, with lines of equal ratio; (b) its deviation from 1 at "
+              "single phases; (c) its parts at one phase: springs that open, and slip where the "
+              "contact never opens.",
           .panels = {panel, missing, parts},
           .columns = 3};
 }

@@ -41,10 +41,12 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 
 // Gnuplot's list of tics for a logarithmic axis. Labels the decades and, if there are few decades,
 // also their 2nd and 5th multiples. The other multiples get small tics without label.
-std::string logarithmic_tics(double low, double high, int labels) {
+void set_logarithmic_tics(DisplayAxis& axis, int labels) {
+  const double low = *axis.low, high = *axis.high;
   const bool few = high - low < 1.7 || std::floor(high) - std::ceil(low) < 1;
   const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / (labels - 1))));
-  std::string tics;
+  std::string& tics = axis.tics;
+  axis.longest_tic = 0;
   for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade) {
     for (int digit = 1; digit <= 9; ++digit) {
       const double at = decade + std::log10(digit);
@@ -57,11 +59,13 @@ std::string logarithmic_tics(double low, double high, int labels) {
           : digit == 1 && (decade < -3 || decade > 4) ? fmt::format("10^{{{}}}", decade)
           : decade < -3 || decade > 4                 ? fmt::format("{}×10^{{{}}}", digit, decade)
                                                       : number(value);
+      // The digits of a power are half as wide, and its base has two.
+      axis.longest_tic = std::max(axis.longest_tic, std::min<std::size_t>(text.size(), 5));
       tics +=
           fmt::format("{}'{}' {:.9g}{}", tics.empty() ? "(" : ",", text, at, labelled ? "" : " 1");
     }
   }
-  return tics.empty() ? tics : tics + ")";
+  if (!tics.empty()) tics += ")";
 }
 
 }  // namespace
@@ -97,8 +101,9 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
   out.logarithmic = axis.logarithmic;
   // The middle of a logarithmic axis has the short numbers.
   std::tie(out.unit, out.factor) =
-      prefixed(axis.unit, axis.logarithmic ? std::sqrt(least) * std::sqrt(most)
-                                           : std::max(std::abs(least), std::abs(most)));
+      prefixed(axis.unit, axis.prefix_of     ? *axis.prefix_of
+                          : axis.logarithmic ? std::sqrt(least) * std::sqrt(most)
+                                             : std::max(std::abs(least), std::abs(most)));
   out.label = out.unit.empty() ? axis.label : axis.label + " (" + out.unit + ")";
   if (axis.low) out.low = out.display(*axis.low);
   if (axis.high) out.high = out.display(*axis.high);
@@ -107,7 +112,7 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
     const double padding = to > from ? 0.03 * (to - from) : 0.5;
     if (!out.low) out.low = from - padding;
     if (!out.high) out.high = to + padding;
-    out.tics = logarithmic_tics(*out.low, *out.high, labels);
+    set_logarithmic_tics(out, labels);
   }
   return out;
 }
@@ -119,6 +124,9 @@ void set_linear_tics(DisplayAxis& axis, int labels) {
   for (const double factor : {2.0, 2.5, 2.0})
     if (step < least) step *= factor;
   axis.tics = fmt::format("{:.9g}", step);
+  axis.longest_tic = 0;
+  for (double k = std::ceil(*axis.low / step); k <= *axis.high / step; ++k)
+    axis.longest_tic = std::max(axis.longest_tic, number(k * step).size());
 }
 
 }  // namespace salebra::figures

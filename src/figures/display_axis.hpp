@@ -20,6 +20,7 @@ struct DisplayAxis {
   bool logarithmic = false;         ///< the picture shows the decimal logarithm of the data
   std::optional<double> low, high;  ///< limits, in the numbers of the picture
   std::string tics;  ///< gnuplot's list of labelled and small tics; empty: gnuplot chooses
+  std::size_t longest_tic = 5;  ///< characters of the longest number along the axis
 
   /// Converts a value of the data to the number in the picture; NaN for a value <= 0 on a
   /// logarithmic axis.

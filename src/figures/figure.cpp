@@ -51,7 +51,7 @@ std::string plain_text(std::string_view text) {
   return out;
 }
 
-Json figure_object(const Figure& figure) { return json_of_value(figure); }
+Json figure_object(const Figure& figure) { return json_of_value(with_limits(figure)); }
 
 std::string figure_json(const Figure& figure) { return figure_object(figure).dump(2) + "\n"; }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <salebra/base/error.hpp>
 #include <span>
 
@@ -26,18 +25,21 @@ constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
 /// Dash patterns of lines across a panel, so that the legend can tell them apart.
 constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2,3)"};
 
-/// Size of a panel and of its text, in pixels of 1/96 inch.
+/// Width of a panel, height of its frame and size of its text, in pixels of 1/96 inch.
 struct Layout {
-  double width = 520, height = 390, font = 12;
+  double width = 520, frame_height = 303.6, font = 12;
 
   double character() const { return 0.617 * font; }
   double line() const { return 1.5 * font; }
-  /// A little less than gnuplot's frame in a panel without title.
+  /// About that of most panels.
   double frame_width() const { return width - 9.2 * font; }
-  double frame_height() const { return height - 7.5 * font; }
-  int labels(bool across) const {
-    return across ? static_cast<int>(std::clamp(frame_width() / (5.5 * character()), 3.0, 10.0))
-                  : static_cast<int>(std::clamp(frame_height() / (2 * line()), 3.0, 10.0));
+  /// Room below a frame for the numbers and the label of x.
+  double bottom() const { return 4.8 * font; }
+  /// Numbers that have room along an axis. square: whether the frame is as wide as it is high.
+  int labels(bool across, bool square = false) const {
+    const double wide = square ? std::min(frame_width(), frame_height) : frame_width();
+    return across ? static_cast<int>(std::clamp(wide / (5.5 * character()), 3.0, 10.0))
+                  : static_cast<int>(std::clamp(frame_height / (1.7 * line()), 3.0, 10.0));
   }
 };
 
@@ -122,32 +124,28 @@ class PanelScript {
     for (const Curve& curve : panel.curves) {
       x.emplace_back(curve.x);
       y.emplace_back(curve.y);
-      y.emplace_back(curve.high);
-      // The limits of error bars do not count on a logarithmic axis: a bar that ends near zero
-      // would extend the axis by decades.
-      if (!(panel.y.logarithmic && curve.style == Style::points)) y.emplace_back(curve.low);
     }
     if (panel.image) {
       x.emplace_back(panel.image->x);
       y.emplace_back(panel.image->y);
     }
-    for (const ReferenceLine& mark : panel.lines)
-      // A reference beside the data extends the axis to itself.
-      if (!mark.vertical && !mark.name.empty() && !panel.image)
-        y.emplace_back(std::span(&mark.at, 1));
-    x_ = display_axis(panel.x, x, layout.labels(true));
+    const int across = layout.labels(true, panel.equal_scales);
+    x_ = display_axis(panel.x, x, across);
     y_ = display_axis(panel.y, y, layout.labels(false));
-    if (!panel.image) {
-      const bool points = std::ranges::any_of(panel.curves, [](const Curve& curve) {
-        return curve.style == Style::points || curve.style == Style::line_and_points;
-      });
-      set_limits(x_, x, points ? 0.03 : 0);
-      set_limits(y_, y, 0.04);
+    if (panel.image) {
+      raster_ = rasterise(*panel.image, x_, y_);
+      end_at_cells(x_, panel.x, raster_->x0, raster_->dx, raster_->values.rows());
+      end_at_cells(y_, panel.y, raster_->y0, raster_->dy, raster_->values.cols());
     }
-    set_linear_tics(x_, layout.labels(true));
+    set_linear_tics(x_, across);
     set_linear_tics(y_, layout.labels(false));
-    top_ = second_axis(panel.second_x, panel.x, x_, layout.labels(true));
+    top_ = second_axis(panel.second_x, panel.x, x_, across);
     right_ = second_axis(panel.second_y, panel.y, y_, layout.labels(false));
+  }
+
+  /// Chooses the places of names and legend in a frame with this room on the left, in pixels.
+  void arrange(double left) {
+    width_ = layout_.width - left - right();
     find_obstacles();
     place_names();
   }
@@ -156,16 +154,29 @@ class PanelScript {
   int legend_rows() const {
     if (legend_ != below) return 0;
     const double wide = legend_width(), entries = legend_entries();
-    return static_cast<int>(
-        std::ceil(entries / std::max(1.0, std::floor(layout_.frame_width() / wide))));
+    return static_cast<int>(std::ceil(entries / std::max(1.0, std::floor(width_ / wide - 0.1))));
   }
 
-  /// place: commands that set the place of the panel; legend: lines of text below the panels of its
-  /// row.
-  void write(const std::string& place, int legend) {
+  /// Room on the left of the frame for the label, the numbers and the tics of y, in pixels.
+  double left() const { return beside(y_); }
+
+  /// Room on the right for a second scale of y or the colour scale, and for the last number of x.
+  double right() const {
+    // A colour scale is a twentieth of the frame wide.
+    if (raster_ && panel_.image->color_bar)
+      return beside(raster_->scale) + 0.7 * layout_.font + 0.05 * layout_.frame_width();
+    return right_ ? beside(*right_) : 1.7 * layout_.font;
+  }
+
+  /// Room above the frame for the title and the second scale of x, in pixels.
+  double top() const {
+    return (panel_.title.empty() ? 0.8 : 2.4) * layout_.font + (top_ ? 3.7 * layout_.font : 0);
+  }
+
+  /// place: commands that set the place of the panel.
+  void write(const std::string& place) {
     write_frame();
     out_ += place;
-    if (legend > 0) line("set bmargin {:.2f}", 3.6 + 1.2 * legend);
     if (panel_.image) write_image();
     write_curves();
     fmt::format_to(std::back_inserter(out_), "plot {}\n", fmt::join(plots_, ", \\\n     "));
@@ -178,28 +189,11 @@ class PanelScript {
     out_ += '\n';
   }
 
-  /// Sets the limits of a linear axis. They must be known to find where the curves lie in the
-  /// frame.
-  static void set_limits(DisplayAxis& axis, const std::vector<std::span<const double>>& data,
-                         double margin) {
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (const auto& column : data)
-      for (const double value : column)
-        if (const double shown = axis.display(value); std::isfinite(shown)) {
-          least = std::min(least, shown);
-          most = std::max(most, shown);
-        }
-    if (axis.low) least = *axis.low;
-    if (axis.high) most = *axis.high;
-    // If all values are equal up to round-off, gnuplot chooses the range.
-    if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
-    // An axis does not magnify a value that is constant to within a percent.
-    const double size = std::max(std::abs(least), std::abs(most));
-    const double padding = most - least < 0.01 * size ? 0.02 * size : margin * (most - least);
-    // If no value is negative the axis does not extend below zero; if none is positive, not above
-    // zero.
-    if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - padding) : least - padding;
-    if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + padding) : most + padding;
+  /// An image is drawn to the edges of its cells.
+  static void end_at_cells(DisplayAxis& axis, const Axis& given, double first, double step,
+                           Index count) {
+    if (!given.low) axis.low = first - 0.5 * step;
+    if (!given.high) axis.high = first + (static_cast<double>(count) - 0.5) * step;
   }
 
   /// The second scale of an axis: the same limits, times the factor.
@@ -235,10 +229,7 @@ class PanelScript {
 
   void find_obstacles() {
     if (!x_.low || !x_.high || !y_.low || !y_.high) return;
-    width_ = layout_.frame_width() - (right_ ? 4 * layout_.font : 0) -
-             (panel_.image && panel_.image->color_bar ? 8 * layout_.font : 0);
-    height_ = layout_.frame_height() - (panel_.title.empty() ? 0 : 1.7 * layout_.font) -
-              (top_ ? 3.4 * layout_.font : 0);
+    height_ = layout_.frame_height;
     const auto segment = [&](double x0, double y0, double x1, double y1) {
       const double steps = std::ceil(std::hypot(x1 - x0, y1 - y0) / 3);
       if (!std::isfinite(steps)) return;
@@ -279,7 +270,7 @@ class PanelScript {
   void place_names() {
     for (const ReferenceLine& mark : panel_.lines) {
       if (mark.name.empty() || !seen(mark)) continue;
-      if (mark.vertical || height_ == 0) {
+      if (mark.vertical || height_ == 0 || panel_.image) {
         unplaced_.push_back(&mark);
         continue;
       }
@@ -349,6 +340,11 @@ class PanelScript {
     return line_dashes[static_cast<std::size_t>(first - panel_.lines.begin()) % line_dashes.size()];
   }
 
+  double beside(const DisplayAxis& axis) const {
+    return (axis.label.empty() ? 1.6 : 4.5) * layout_.font +
+           layout_.character() * double(axis.longest_tic);
+  }
+
   /// From side to side of the frame, between two values on an axis.
   static std::string side_to_side(bool vertical, double from, double to) {
     return vertical ? fmt::format("from first {:.9g},graph 0 to first {:.9g},graph 1", from, to)
@@ -358,21 +354,15 @@ class PanelScript {
   void write_frame() {
     line("reset");
     line("set encoding utf8\nset minussign");
-    line("set border lw 0.8\nset tics in scale 0.7,0.35\nset mxtics\nset mytics");
+    line("set border lw 0.8\nset tics out nomirror scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(panel_.title));
-    line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_);
+    line("set key {} samplen 2.4 spacing 1.05 width 0.5", legend_);
     if (legend_entries() == 0) line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
     write_axis("x", x_);
     write_axis("y", y_);
-    if (top_) {
-      line("set xtics nomirror");
-      write_axis("x2", *top_);
-    }
-    if (right_) {
-      line("set ytics nomirror");
-      write_axis("y2", *right_);
-    }
+    if (top_) write_axis("x2", *top_);
+    if (right_) write_axis("y2", *right_);
     for (const ShadedRange& range : panel_.ranges) {
       const DisplayAxis& axis = range.vertical ? x_ : y_;
       const double low = std::max(axis.display(range.low), axis.low.value_or(-HUGE_VAL)),
@@ -381,9 +371,9 @@ class PanelScript {
       line("set object rectangle {} behind fc rgb '#808080' fs solid 0.15 noborder",
            side_to_side(range.vertical, low, high));
       if (!range.name.empty())
-        plots_.push_back(
-            fmt::format("NaN with boxes lc rgb '#808080' fs solid 0.15 noborder title {}",
-                        literal(range.name)));
+        plots_.push_back(fmt::format(
+            "NaN with boxes lc rgb '#808080' fs solid 0.15 border lc rgb '#808080' title {}",
+            literal(range.name)));
     }
     for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;
@@ -413,7 +403,7 @@ class PanelScript {
 
   void write_image() {
     const Image& image = *panel_.image;
-    const Raster raster = rasterise(image, x_, y_);
+    const Raster& raster = *raster_;
     const DisplayAxis& scale = raster.scale;
     line("$image{} << EOD", number_);
     for (Index j = 0; j < raster.values.cols(); ++j) {
@@ -431,14 +421,6 @@ class PanelScript {
     if (!image.color_bar) line("unset colorbox");
     const std::string columns = fmt::format("({:.12g}+{:.12g}*$1):({:.12g}+{:.12g}*$2):3",
                                             raster.x0, raster.dx, raster.y0, raster.dy);
-    for (const auto& [axis, first, step, count] :
-         {std::tuple{'x', raster.x0, raster.dx, raster.values.rows()},
-          std::tuple{'y', raster.y0, raster.dy, raster.values.cols()}}) {
-      const DisplayAxis& display = axis == 'x' ? x_ : y_;
-      const auto& given = axis == 'x' ? panel_.x : panel_.y;
-      line("set {}range [{:.9g}:{:.9g}]", axis, given.low ? *display.low : first - 0.5 * step,
-           given.high ? *display.high : first + (static_cast<double>(count) - 0.5) * step);
-    }
     plots_.push_back(fmt::format("$image{} matrix using {} with image notitle", number_, columns));
 
     const auto [least, most] = finite_range(raster.values);
@@ -534,7 +516,9 @@ class PanelScript {
   static constexpr const char* below = "below Left reverse";
   DisplayAxis x_, y_;
   std::optional<DisplayAxis> top_, right_;
-  /// Size of the frame in pixels; 0: the limits are unknown, so texts cannot avoid curves.
+  std::optional<Raster> raster_;
+  /// Size of the frame in pixels. height_ is 0 if the limits are unknown, so that texts cannot
+  /// avoid curves.
   double width_ = 0, height_ = 0;
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
@@ -546,10 +530,9 @@ class PanelScript {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, PictureFormat format,
-                           std::optional<double> width) {
-  require(!figure.panels.empty(), "figure", figure.panels.size(),
-          "panels given; give at least one");
+std::string gnuplot_script(const Figure& given, PictureFormat format, std::optional<double> width) {
+  require(!given.panels.empty(), "figure", given.panels.size(), "panels given; give at least one");
+  const Figure figure = with_limits(given);
   const int panels = static_cast<int>(figure.panels.size());
   int columns =
       std::min(panels, figure.columns > 0
@@ -557,24 +540,42 @@ std::string gnuplot_script(const Figure& figure, PictureFormat format,
                            : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels)))));
   Layout layout;
   if (width) {
-    constexpr double inch = 0.0254, dots = 96, least_panel = 300;
+    constexpr double inch = 0.0254, dots = 96, least_panel = 300, page = 0.24;
     const double whole = *width / inch * dots;
     columns = std::min(columns, std::max(1, static_cast<int>(whole / least_panel)));
-    layout = {.width = whole / columns, .height = 0.78 * whole / columns, .font = 7.0 / 72 * dots};
+    const double across = whole / columns, rows = std::ceil(panels / double(columns));
+    // Many rows are lower, so that they come closer to the height of a page.
+    layout = {.width = across,
+              .frame_height =
+                  std::clamp(page / inch * dots / rows - 0.2 * across, 0.32 * across, 0.6 * across),
+              .font = 7.0 / 72 * dots};
   }
   const int rows = (panels + columns - 1) / columns;
   std::string body;
   std::vector<PanelScript> scripts;
-  // Panels of a row have the same height, with room for the longest legend below them.
-  std::vector<int> legends(static_cast<std::size_t>(rows), 0);
+  // Frames of a row have the same height, with room for the longest legend below them; those of a
+  // column have the same left edge.
+  std::vector<double> tops(static_cast<std::size_t>(rows), 0),
+      bottoms = tops, lefts(static_cast<std::size_t>(columns), 0);
   for (int k = 0; k < panels; ++k) {
     scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout, body);
-    int& legend = legends[static_cast<std::size_t>(k / columns)];
-    legend = std::max(legend, scripts.back().legend_rows());
+    double& left = lefts[static_cast<std::size_t>(k % columns)];
+    left = std::max(left, scripts.back().left());
+  }
+  // Lines of a legend are farther apart in an SVG, and the label of x is lower.
+  const double line = (format == PictureFormat::svg ? 1.65 : 1.4) * layout.font,
+               gap = (format == PictureFormat::svg ? 1.5 : 0.4) * layout.font;
+  for (int k = 0; k < panels; ++k) {
+    PanelScript& one = scripts[static_cast<std::size_t>(k)];
+    one.arrange(lefts[static_cast<std::size_t>(k % columns)]);
+    const auto row = static_cast<std::size_t>(k / columns);
+    const int legend = one.legend_rows();
+    tops[row] = std::max(tops[row], one.top());
+    bottoms[row] = std::max(bottoms[row], layout.bottom() + (legend > 0 ? legend * line + gap : 0));
   }
   const auto height_of = [&](int row) {
-    const int legend = legends[static_cast<std::size_t>(row)];
-    return layout.height + (legend > 0 ? (legend + 0.5) * layout.line() : 0);
+    const auto at = static_cast<std::size_t>(row);
+    return tops[at] + layout.frame_height + bottoms[at];
   };
   const double title = figure.title.empty() ? 0 : 2.2 * layout.font;
   const double across = columns * layout.width;
@@ -584,13 +585,20 @@ std::string gnuplot_script(const Figure& figure, PictureFormat format,
   for (int k = 0; k < panels; ++k) {
     const int row = k / columns, column = k % columns;
     if (column == 0) top -= height_of(row);
+    // A last row that is not full is in the middle.
+    const double from = column + 0.5 * std::max(0, (row + 1) * columns - panels);
+    const double bottom = top + bottoms[static_cast<std::size_t>(row)];
     scripts[static_cast<std::size_t>(k)].write(
-        fmt::format("set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", column / double(columns),
+        fmt::format("set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", from / columns,
                     top / down, 1.0 / columns, height_of(row) / down) +
-            (k == 0 && title > 0 ? fmt::format("set label {} at screen 0.5,{:.6f} center\n",
-                                               literal(figure.title), 1 - 0.5 * title / down)
-                                 : ""),
-        legends[static_cast<std::size_t>(row)]);
+        fmt::format("set lmargin at screen {:.6f}\nset bmargin at screen {:.6f}\n"
+                    "set tmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n",
+                    from / columns + lefts[static_cast<std::size_t>(column)] / across,
+                    bottom / down, (bottom + layout.frame_height) / down,
+                    (from + 1) / columns - scripts[static_cast<std::size_t>(k)].right() / across) +
+        (k == 0 && title > 0 ? fmt::format("set label {} at screen 0.5,{:.6f} center\n",
+                                           literal(figure.title), 1 - 0.5 * title / down)
+                             : ""));
   }
   std::string out;
   // Sizes of pdfcairo are in inches; a picture for a screen has 100 pixels to an inch.

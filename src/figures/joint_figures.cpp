@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figure of a joint: loss over force, and the loop of the largest motion.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <salebra/damping/joint.hpp>
@@ -34,7 +36,7 @@ Curve backbone_of(const std::vector<double>& displacement, const std::vector<dou
 }  // namespace
 
 Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
-                 const std::vector<double>& loop,
+                 const std::vector<double>& loop, double normal_force, double friction_coefficient,
                  const std::array<std::vector<double>, 2>& limits) {
   std::vector<double> force, amplitude, work;
   auto [low, high] = limits;
@@ -54,11 +56,12 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
       several ? interval_text(work[largest], low[largest], high[largest], Dimension::energy)
               : error_text(work[largest], losses[largest].work_error, Dimension::energy);
   Figure figure{.kind = "joint",
-                .caption = several
-                               ? "Loss of joints in a cycle of the tangential motion, with its "
-                                 "95 % limits, and the loop of the largest motion."
-                               : "Loss of a joint in a cycle of the tangential motion, with its "
-                                 "error, and the loop of the largest motion.",
+                .caption = fmt::format(
+                    "Loss of a joint in a cycle of the tangential motion, with its {}, and the "
+                    "loop of the largest motion with its backbone. The normal force is {} and the "
+                    "coefficient of friction {:.3g}.",
+                    several ? "95 % limits" : "error",
+                    format_quantity(normal_force, Dimension::force, 4), friction_coefficient),
                 .columns = 2};
   // The force does not grow further while the joint slides; then the amplitude tells the motions
   // apart.
@@ -67,18 +70,20 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
     slides = slides || std::abs(force[k] - force[k - 1]) < 1e-3 * force[k];
   const std::vector<double>& along = slides ? amplitude : force;
   figure.panels.push_back(
-      {.title = "Energy dissipated in a cycle",
+      {.title =
+           fmt::format("normal force F = {}, µ = {:.3g}",
+                       format_quantity(normal_force, Dimension::force, 4), friction_coefficient),
        .x = axis_of(slides ? "tangential_amplitude" : "tangential_force", grows_by_factors(along)),
-       .y = axis_of("work_per_cycle", spans_decades(work)),
+       .y = axis_of("work_per_cycle", spans_decades(work), "loss W in a cycle"),
        .legend = Legend::top_left});
-  figure.panels.back().curves = {{.name = several ? "loss W, 95 %" : "loss W",
+  figure.panels.back().curves = {{.name = several ? "with 95 % limits" : "",
                                   .quantity = "work_per_cycle",
                                   .x = along,
                                   .y = work,
                                   .low = low,
                                   .high = high,
                                   .style = Style::line_and_points}};
-  figure.panels.push_back({.title = "Largest motion: W = " + loss,
+  figure.panels.push_back({.title = "largest motion: W = " + loss,
                            .x = axis_of("tangential_amplitude", false, "displacement x"),
                            .y = axis_of("tangential_force", false, "tangential force F_x"),
                            .legend = Legend::top_left});

@@ -31,8 +31,8 @@ Panel picture_panel(const SurfacePicture& picture, const Axis& scale, const Valu
   return {.title = scale.label,
           .x = {.label = "x", .unit = "m"},
           .y = {.label = "y", .unit = "m"},
-          .image = Image{.x = positions(picture.nx, picture.step_x),
-                         .y = positions(picture.ny, picture.step_y),
+          .image = Image{.x = cells(picture.nx, picture.step_x),
+                         .y = cells(picture.ny, picture.step_y),
                          .values = std::move(values),
                          .scale = scale},
           .equal_scales = true};
@@ -176,7 +176,7 @@ Figure figure_of(const Realisation& surface) {
   Panel panel{.x = axis_of("mean_gap", false, "mean gap ū"),
               .y = axis_of("pressure", true, "nominal pressure p")};
   for (const ModelResult& model : surface.models) {
-    Curve curve{.name = plain_text(name_of(model.model)), .color = static_cast<int>(model.model)};
+    Curve curve{.name = title_of(name_of(model.model)), .color = static_cast<int>(model.model)};
     for (const ForceSample& sample : model.curve.samples) {
       if (!sample.converged) continue;
       curve.x.push_back(sample.mean_gap);
@@ -224,6 +224,9 @@ Figure figure_of(const StressMap& map) {
                              .color = 6}}};
   };
   return {.kind = "stress_map",
+          .caption =
+              "Shear stress and pressure over the radius and the phase of the normal motion; "
+              "the black line is the edge of the contact.",
           .panels = {panel(map.shear, stress, Palette::diverging),
                      panel(map.contact_pressure, axis_of("contact_pressure", false, "pressure p"),
                            Palette::sequential)},

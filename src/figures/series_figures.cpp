@@ -47,13 +47,12 @@ Figure figure_of(const ViscoelasticIndentation& contact) {
 }
 
 Figure figure_of(const ContactSetAt& set) {
-  const auto cells = [](Index count) { return positions(count, 1); };
   return {.kind = "contact_set",
           .caption = "Cells in contact, black.",
           .panels = {{.x = {.label = "cell along x"},
                       .y = {.label = "cell along y"},
-                      .image = Image{.x = cells(set.contact.rows()),
-                                     .y = cells(set.contact.cols()),
+                      .image = Image{.x = cells(set.contact.rows(), 1),
+                                     .y = cells(set.contact.cols(), 1),
                                      .values = set.contact.cast<double>(),
                                      .palette = Palette::grey,
                                      .color_bar = false},

@@ -13,7 +13,7 @@ namespace salebra::figures {
 
 Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   Curve mean{.name = "computed", .quantity = "friction_coefficient"},
-      slow{.name = "slow sliding, at most µ"};
+      slow{.name = "µ_0 + Γv/F, at most µ"};
   slow.style = Style::dashed;
   if (points.size() <= 30) mean.style = Style::line_and_points;
   Curve total{.name = "total", .quantity = "work_per_cycle"},
@@ -22,49 +22,52 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
-    for (Curve* curve : {&mean, &slow, &total, &opening}) curve->x.push_back(velocity);
+    for (Curve* curve : {&mean, &total, &opening}) curve->x.push_back(velocity);
     mean.y.push_back(state.friction_coefficient);
     // Only a surface has errors.
     if (const double error = point.errors.friction_coefficient_error; !std::isnan(error)) {
       mean.low.push_back(state.friction_coefficient - error);
       mean.high.push_back(state.friction_coefficient + error);
     }
-    const double linear =
-        state.static_friction_coefficient + state.low_speed_damping * velocity / state.mean_force;
-    slow.y.push_back(std::min(linear, friction));
     total.y.push_back(state.relaxation_work + state.slip_work);
     opening.y.push_back(state.relaxation_work);
   }
   if (mean.low.size() != mean.x.size()) mean.low = mean.high = {};
   const Axis x = axis_of("velocity", grows_by_factors(mean.x));
+  // The limit is known between the computed velocities too.
+  constexpr int pieces = 200;
+  const SlidingPoint& first = points.front();
+  const auto [lowest, highest] = std::ranges::minmax(mean.x);
+  for (int k = 0; k <= pieces; ++k) {
+    const double part = double(k) / pieces;
+    slow.x.push_back(x.logarithmic ? lowest * std::pow(highest / lowest, part)
+                                   : lowest + part * (highest - lowest));
+    slow.y.push_back(std::min(
+        friction, first.state.static_friction_coefficient +
+                      first.state.low_speed_damping * slow.x.back() / first.state.mean_force));
+  }
   Figure figure{
       .kind = "sliding",
       .caption =
-          "Mean tangential over mean normal force of steady sliding beside a normal oscillation, "
-          "with its limit for slow sliding, static friction µ_0 and a damping constant Γ "
-          "(µ_0 + Γv/F, at most µ), and the energy lost in a normal cycle, of which relaxation is "
-          "the "
-          "part of springs that open.",
+          "Mean tangential over mean normal force of steady sliding under a normal oscillation, "
+          "with its limit for slow sliding, µ_0 + Γv/F (static friction µ_0, damping constant Γ), "
+          "and the energy lost in a normal cycle; relaxation is the part of springs that open.",
       .columns = 2};
   figure.panels.push_back(
-      {.title = points.empty()
-                    ? ""
-                    : "static friction µ_0 = " +
-                          error_text(points.front().state.static_friction_coefficient,
-                                     points.front().errors.static_friction_coefficient_error,
-                                     Dimension::dimensionless),
+      {.title =
+           "static friction µ_0 = " + error_text(first.state.static_friction_coefficient,
+                                                 first.errors.static_friction_coefficient_error,
+                                                 Dimension::dimensionless),
        .x = x,
        .y = axis_of("friction_coefficient", false, "coefficient of friction F_x/F"),
        .legend = Legend::top_left});
   figure.panels.back().curves = {mean, slow};
   figure.panels.push_back(
-      {.title = points.empty() ? ""
-                               : "damping constant of slow sliding Γ = " +
-                                     error_text(points.front().state.low_speed_damping,
-                                                points.front().errors.low_speed_damping_error,
-                                                Dimension::damping),
+      {.title = "slow sliding: Γ = " + error_text(first.state.low_speed_damping,
+                                                  first.errors.low_speed_damping_error,
+                                                  Dimension::damping),
        .x = x,
-       .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W"),
+       .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W in a normal cycle"),
        .legend = Legend::top_left});
   figure.panels.back().curves = {total, opening};
   return figure;
@@ -76,7 +79,7 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
   const std::vector<double>& amplitudes = problem.normal_amplitude;
   Figure figure{.kind = "sliding_map",
                 .caption =
-                    "Mean tangential over mean normal force of steady sliding beside a normal "
+                    "Mean tangential over mean normal force of steady sliding under a normal "
                     "oscillation, and its growth with the velocity; white where it does not grow.",
                 .columns = 2};
   const auto panel = [&](const char* title, Axis scale, double SteadySliding::*member) {
@@ -103,12 +106,15 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
 }
 
 Figure figure_of(const RegimeMap& map, double omega) {
-  Figure figure{.kind = "regimes",
-                .caption =
-                    "Loss of a slow oscillation over that without slip, with the borders of "
-                    "the regimes."};
+  Figure figure{
+      .kind = "regimes",
+      .caption =
+          "Loss W of an oscillation to and fro over the excursion X at the velocity v, "
+          "over its loss without slip, with the borders of the regimes: no slip below "
+          "the black line, partial slip between the lines, sliding above the red line. White: "
+          "the excursion is shorter than the way in one normal cycle."};
   Panel& panel = figure.panels.emplace_back();
-  panel.title = "Loss of a slow oscillation over that without slip";
+  panel.title = "loss of a slow oscillation over that without slip";
   const auto axis = [](const char* label, const char* unit, const std::vector<double>& values) {
     const auto [low, high] = std::ranges::minmax(values);
     return Axis{.label = label,

@@ -96,7 +96,7 @@ void add_answer(const StudyNumbers& numbers, Panel& damping) {
                                : "without slip";
   const bool errors = std::ranges::any_of(
       means, [](const StatedMean& one) { return !std::isnan(one.mean - one.error); });
-  damping.curves.push_back(points_of(name + (limits   ? ", 95 %"
+  damping.curves.push_back(points_of(name + (limits   ? ", 95 % interval"
                                              : errors ? ", ± error"
                                                       : ""),
                                      numbers.pressures, means));
@@ -126,34 +126,12 @@ bool shows_anything(const Panel& panel) {
   });
 }
 
-/// Gives panels the same scale and limits, which contain all their curves, bands and reference lines.
+/// Gives panels the same scale and limits along y.
 void share_limits(const std::vector<Panel*>& panels) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
   const bool logarithmic =
       std::ranges::all_of(panels, [](const Panel* panel) { return panel->y.logarithmic; });
   for (Panel* panel : panels) panel->y.logarithmic = logarithmic;
-  const auto hold = [&](double value) {
-    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  };
-  for (const Panel* panel : panels) {
-    for (const Curve& curve : panel->curves) {
-      std::ranges::for_each(curve.y, hold);
-      std::ranges::for_each(curve.high, hold);
-      if (curve.style != Style::points) std::ranges::for_each(curve.low, hold);
-    }
-    for (const ReferenceLine& line : panel->lines)
-      if (!line.vertical) hold(line.at);
-  }
-  const std::optional<double> fixed = panels.front()->y.low;
-  if (fixed) low = std::min(low, *fixed);
-  if (!(low < high)) return;
-  const double margin = 0.04 * (logarithmic ? std::log(high / low) : high - low);
-  for (Panel* panel : panels) {
-    panel->y.low = fixed ? low : logarithmic ? low * std::exp(-margin) : low - margin;
-    panel->y.high = logarithmic ? high * std::exp(margin) : high + margin;
-  }
+  set_limits(panels, &Panel::y);
 }
 
 /// Makes the pictures of one point of the parameter grid.
@@ -330,7 +308,6 @@ class Pictures {
           curve.y, [&](double value) { return std::abs(value - n_.modulus_ratio) > 1e-6 * value; });
     });
     if (!computed) panel.curves.clear();
-    share_limits({&panel});
   }
 
   EnsembleMean decay_length() const {
@@ -343,15 +320,14 @@ class Pictures {
     Panel& panel = add("local-length", "Local decay length",
                        "Local decay length of each surface between neighbouring loads. An "
                        "exponential law gives a horizontal line.",
-                       axis_of("local_decay_length", false, "local decay length −dū/d ln p"));
+                       axis_of("local_decay_length", false, "decay length −dū/d ln p"));
     panel.x = axis_of("mean_gap", false, "mean gap ū");
     panel.second_x = {};
     panel.y.low = 0;
     if (const double length = decay_length().mean; std::isfinite(length))
       panel.lines = {{.at = length, .name = "l of the fit", .quantity = "decay_length"}};
     for (std::size_t i = 0; i < std::min(n_.local.size(), max_single_curves); ++i)
-      panel.curves.push_back({.name = i == 0 ? "between loads, of each surface" : "",
-                              .x = n_.local[i].mean_gap,
+      panel.curves.push_back({.x = n_.local[i].mean_gap,
                               .y = n_.local[i].decay_length,
                               .style = Style::line_and_points,
                               .color = 0});
@@ -363,7 +339,7 @@ class Pictures {
                        "same surfaces: by the closed form with the fitted law (dashed), and from "
                        "the force curves of other models. It shows the error of using either." +
                            std::string(" ") + motion_sentence(n_),
-                       {.label = "γ over that of boundary elements"});
+                       {.label = "γ over that of BEM"});
     Means ratio = n_.deviation;
     for (EnsembleMean& one : ratio) one = {one.mean + 1, one.low + 1, one.high + 1};
     panel.curves.push_back(
@@ -388,28 +364,12 @@ class Pictures {
 
 }  // namespace
 
-std::string motion_in_words(const Oscillation& motion, double excursion) {
-  const auto quantity = [](double value, Dimension dimension) {
-    return format_quantity(value, dimension, 3);
-  };
-  const auto frequency = [&](double omega) {
-    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
-  };
-  if (const auto* drag = std::get_if<Drag>(&motion))
-    return fmt::format(
-        "slow shear{} at {} under {} at {}",
-        std::isnan(excursion) ? "" : " over " + quantity(excursion, Dimension::length),
-        quantity(drag->drag_velocity, Dimension::velocity),
-        quantity(drag->normal_amplitude, Dimension::length), frequency(drag->angular_frequency));
-  const auto& equal = std::get<EqualFrequency>(motion);
-  return fmt::format("{} along and {} across the surface, {} apart, at {}",
-                     quantity(equal.tangential_amplitude, Dimension::length),
-                     quantity(equal.normal_amplitude, Dimension::length),
-                     quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
-}
-
 std::string motion_sentence(const StudyNumbers& numbers) {
-  return "Motion: " + motion_in_words(*numbers.motion, numbers.excursion) +
+  return "Motion: " +
+         std::visit([](const auto& motion) { return motion_text(motion); }, *numbers.motion) +
+         (std::isnan(numbers.excursion)
+              ? ""
+              : ", X = " + format_quantity(numbers.excursion, Dimension::length, 4)) +
          (numbers.hold == Hold::indentation ? ", mean indentation held"
           : numbers.hold == Hold::force     ? ", mean force held"
                                             : ", mean force held where the contact lifts off") +
@@ -497,6 +457,9 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
       if (figure.panels.size() < row.size() && row.size() > 1)
         panel.title = describe_point(varied, results[i].configuration) +
                       (panel.title.empty() ? "" : ", " + panel.title);
+      // One row has the second scale that all rows share.
+      const bool first_row = figure.panels.size() < std::size_t(figure.columns);
+      if (!first_row && panel.second_x && panel.second_x->unit.empty()) panel.second_x = {};
       figure.panels.push_back(panel);
     }
   }

@@ -70,11 +70,13 @@ Panel spectrum_panel(const SurfaceSpectrum& of) {
   const HurstEstimate& hurst = of.law.hurst;
   const RadialSpectrum radial = radial_spectrum(spectrum, 6);
   Panel panel{
-      .title = hurst.found() ? "Hurst exponent " + hurst_text(hurst) : "Power spectral density",
+      .title = hurst.found() ? "Hurst exponent " + hurst_text(hurst) : "no power law was found",
       .x = axis_of("wavenumber", true, "wave number q"),
       .y = axis_of("psd", true, "power spectral density C"),
       .legend = Legend::bottom_left};
-  Curve measured{.name = "radial mean, 95 %", .quantity = "psd", .style = Style::line_and_points};
+  Curve measured{.name = "radial mean, 95 % confidence band",
+                 .quantity = "psd",
+                 .style = Style::line_and_points};
   std::vector<double> weights;
   double strongest = 0;
   for (const double density : radial.psd) strongest = std::max(strongest, density);
@@ -101,9 +103,9 @@ Panel lay_panel(const SurfaceSpectrum& of) {
   const PowerSpectrum& spectrum = *of.spectrum;
   Panel panel{.title = "Hurst exponent " + hurst_text(of.of_lay->across.hurst) + " across",
               .x = axis_of("wavenumber", true, "wave number q"),
-              .y = axis_of("profile_psd", true, "power spectral density C_1 of profiles"),
+              .y = axis_of("profile_psd", true, "power spectral density C_1"),
               .legend = Legend::bottom_left};
-  if (!of.of_lay->across.hurst.found()) panel.title = "Power spectral density of profiles";
+  if (!of.of_lay->across.hurst.found()) panel.title = "profiles; no power law was found";
   for (const bool along : {false, true}) {
     const SelfAffineFit& law = along ? of.of_lay->along : of.of_lay->across;
     const double direction = of.lay_angle + (along ? 0 : std::numbers::pi / 2);
@@ -111,7 +113,7 @@ Panel lay_panel(const SurfaceSpectrum& of) {
     const double lowest =
         2 * std::numbers::pi *
         std::hypot(std::cos(direction) / spectrum.grid.lx, std::sin(direction) / spectrum.grid.ly);
-    Curve measured{.name = way.substr(1) + " the lay, 95 %",
+    Curve measured{.name = way.substr(1) + " the lay, 95 % confidence band",
                    .quantity = "profile_psd",
                    .style = Style::line_and_points,
                    .color = along ? 1 : 0};
@@ -141,7 +143,8 @@ Panel distribution_panel(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
   Panel panel;
-  panel.title = fmt::format("Skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
+  panel.title = fmt::format("skewness {}{:.2f}, kurtosis {:.2f}", heights.skewness < 0 ? "−" : "",
+                            std::abs(heights.skewness), heights.kurtosis);
   panel.x = axis_of("height", false, "height");
   panel.y = axis_of("height_density", false, "probability density");
   panel.curves.push_back({.name = "heights",
@@ -183,7 +186,7 @@ Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure{
       .kind = "surface",
       .caption = fmt::format(
-          "Heights of the surface ({} × {} points), its {} with the 95 % interval of each mean{}, "
+          "Heights of the surface ({} × {} points), its {} with the 95 % confidence band{}, "
           "and the distribution of the heights beside the Gaussian of the same mean and rms "
           "height.",
           surface.grid.nx, surface.grid.ny,
@@ -192,10 +195,11 @@ Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
           of.law.hurst.found() || (of.of_lay && of.of_lay->across.hurst.found())
               ? " and the fitted power law in the range of its fit"
               : "")};
-  figure.panels.push_back(
-      map_panel(surface.grid, surface.heights,
-                "Rms height " + format_quantity(statistics.rms_height, Dimension::length, 3),
-                axis_of("heights", false, "height")));
+  figure.panels.push_back(map_panel(
+      surface.grid, surface.heights,
+      "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3) +
+          (of.of_lay ? fmt::format(", lay at {:.0f}°", of.lay_angle * 180 / std::numbers::pi) : ""),
+      axis_of("heights", false, "height")));
   if (of.spectrum && of.spectrum->psd.maxCoeff() > 0)
     figure.panels.push_back(of.of_lay ? lay_panel(of) : spectrum_panel(of));
   if (statistics.rms_height > 0) figure.panels.push_back(distribution_panel(surface));
@@ -213,7 +217,7 @@ Figure figure_of(const SurfaceTwin& twin) {
   panel.x = axis_of("wavenumber", true, "wave number q");
   panel.y = axis_of("psd", true, "power spectral density C(q)");
   panel.legend = Legend::bottom_left;
-  panel.curves.push_back({.name = "all scans together, 95 %",
+  panel.curves.push_back({.name = "all scans, 95 % confidence band",
                           .quantity = "psd",
                           .x = twin.spectrum.wavenumber,
                           .y = twin.spectrum.psd,
@@ -222,7 +226,7 @@ Figure figure_of(const SurfaceTwin& twin) {
   return {.kind = "twin",
           .caption =
               "Power spectral density of the surface that all scans have in common, with its "
-              "95 % band.",
+              "95 % confidence band.",
           .panels = {panel}};
 }
 

@@ -185,7 +185,7 @@ TEST_CASE("The picture of a study draws the damping constants of its table with 
       CHECK_THAT(drawing.script(), Contains("with yerrorbars"));
       CHECK_THAT(drawing.script(),
                  Contains(std::string(slip.empty() ? "'without slip" : "'with slip, µ = 0.3") +
-                          (sample ? ", 95 %'" : ", ± error'")));
+                          (sample ? ", 95 % interval'" : ", ± error'")));
       CHECK_THAT(drawing.script(),
                  Contains("nominal pressure p (") && Contains("normal force F ("));
     }
@@ -302,12 +302,15 @@ void check_texts(const std::string& svg, const std::set<std::string>& on_curves 
   }
 }
 
-/// The commands of docs/figures.md, with fewer points, steps and values.
-std::vector<std::string> commands_of_page() {
+/// The commands of docs/figures.md, with fewer points, steps and values, and their input files.
+std::vector<std::string> commands_of_page(const ProgramTest& test) {
   std::ostringstream text;
   text << std::ifstream(std::filesystem::path(SALEBRA_README).parent_path() / "docs/figures.md")
               .rdbuf();
   std::string page = text.str();
+  static const std::regex input("\n```toml\n# (\\S+)\n([^`]*)```");
+  for (std::sregex_iterator at(page.begin(), page.end(), input), end; at != end; ++at)
+    test.write((*at)[1].str(), (*at)[2].str());
   page = std::regex_replace(page, std::regex("\\\\\n"), " ");
   std::vector<std::string> commands;
   static const std::regex command("\nsalebra (.*?)( --plot \\S+)?\n"),
@@ -344,9 +347,9 @@ TEST_CASE("No text of a picture of a study lies on a curve or on another text", 
 
 TEST_CASE("Texts of the pictures of the documentation keep apart at the widths of journals",
           "[plot]") {
-  const std::vector<std::string> commands = commands_of_page();
-  REQUIRE(commands.size() >= 10);
   const ProgramTest test;  // later commands read the files of earlier ones
+  const std::vector<std::string> commands = commands_of_page(test);
+  REQUIRE(commands.size() >= 10);
   for (const std::string& command : commands) {
     CAPTURE(command);
     test.done(command + " --quiet --overwrite --plot a.json");
@@ -475,10 +478,56 @@ TEST_CASE("The map of sliding and the work of an oscillation are those of the an
       "sliding --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
       "--friction-coefficient 0.3 --normal-amplitude 1:50nm:4 --frequency 20kHz --velocities "
       "1um/s:1mm/s:3 --json --plot f.json");
-  const json map = json::parse(test.read("f.json"))["panels"][0]["image"]["values"];
+  const auto map_of_figure = [&] {
+    return json::parse(test.read("f.json"))["panels"][0]["image"]["values"];
+  };
+  json map = map_of_figure();
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 4; ++j)
       CHECK(map[i][j] == sliding["friction_coefficient"][3 * j + i]);
+
+  const json regimes = test.answer(
+      "sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+      "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
+      "1nm/s:10um/s:3 --excursions 1nm:1um:4 --json --plot f.json --overwrite")["regime_map"];
+  map = map_of_figure();
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 4; ++j) CHECK(map[i][j] == regimes["loss_ratio"][4 * i + j]);
+
+  const std::string cone =
+      "damping --law cone --angle 10deg --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+      "--mode equal-frequency --normal-amplitude 10nm --tangential-amplitude 10nm --phase 90deg "
+      "--overwrite --plot f.json ";
+  test.done(cone + "--steps 200 --friction-numbers 0.1:100:4 --friction-map map.h5");
+  const auto check_map = [&](const std::string& dataset, bool by_column) {
+    const Values values = salebra::ResultReader(test.folder() / "map.h5").numbers(dataset);
+    map = map_of_figure();
+    const std::size_t rows = map.size(), columns = map[0].size();
+    REQUIRE(values.size() == rows * columns);
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < rows; ++i)
+      for (std::size_t j = 0; j < columns; ++j) {
+        if (map[i][j].is_null()) continue;
+        ++known;
+        CHECK(map[i][j] == values[by_column ? j * rows + i : i * columns + j]);
+      }
+    CHECK(known > values.size() / 2);
+  };
+  check_map("friction_map/loss_ratio", false);
+  // The figure has the radius along x, the file the phase first.
+  test.done(cone + "--map-phases 16 --map-radii 20 --stress-map map.h5");
+  check_map("stress_map/shear", true);
+
+  test.done(
+      "generate --points 64 --size-x 8um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um "
+      "--rms-height 10nm -o rough.h5");
+  test.write("scans.toml", "[[measurement]]\nfile = \"rough.h5\"\ninstrument = \"ideal\"\n");
+  test.done("twin scans.toml -o twin.h5 --plot f.json --overwrite");
+  const salebra::ResultReader twin(test.folder() / "twin.h5");
+  const json curve = json::parse(test.read("f.json"))["panels"][0]["curves"][0];
+  for (const auto& [name, dataset] :
+       {std::pair("x", "wavenumber"), {"y", "psd"}, {"low", "psd_low"}, {"high", "psd_high"}})
+    check_alike(numbers(curve[name]), twin.numbers(std::string("twin/spectrum/") + dataset), 0);
 
   const json cycle = test.answer(
       "oscillate --shape paraboloid --contact-modulus 1GPa --poisson 0.3 --points 32 --steps 16 "
@@ -657,7 +706,7 @@ TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answer
   CHECK((gap[1] - gap[0]) / (std::log(10) * (pressure[0] - pressure[1])) ==
         Approx(1e9 * fit.answer()["decay_length"].get<double>()).epsilon(1e-6));
 
-  CHECK_THAT(fit.script(), Contains("title 'bem'"));
+  CHECK_THAT(fit.script(), Contains("title 'boundary elements'"));
   test.write("mine.csv",
              "# model: my bench_1\nmean_gap [m],pressure "
              "[Pa]\n3.0e-8,1.0e6\n2.0e-8,3.0e6\n1.0e-8,9.0e6\n0.0,27.0e6\n");
@@ -781,7 +830,7 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
     INFO(command);
     const Drawing drawing(test, command);
     CHECK_THAT(drawing.script(),
-               Contains("'Rms height 0 m'") && !Contains("power spectral density"));
+               Contains("'rms height 0 m'") && !Contains("power spectral density"));
   }
 }
 

@@ -187,6 +187,37 @@ TEST_CASE("One curve has labels and units of its quantities, and scales that sui
   CHECK(panel.curves.at(0).high.at(2) == 6);
 }
 
+TEST_CASE("Limits hold what is drawn, do not magnify a constant, and a quantity has one prefix",
+          "[figures]") {
+  Panel constant, decades, loop;
+  constant.curves = {{.x = {0, 1}, .y = {5, 5.001}}};
+  decades.x = {.quantity = "force", .unit = "N", .logarithmic = true};
+  decades.y = {.logarithmic = true};
+  // The last point cannot be drawn, and the lower end of the bar would add twelve decades.
+  decades.curves = {{.x = {0.1, 2, 1e9},
+                     .y = {1, 100, 0},
+                     .low = {1e-12, 90, 0},
+                     .high = {2, 110, 0},
+                     .style = Style::points}};
+  loop.y = {.quantity = "force", .unit = "N"};
+  loop.curves = {{.x = {-1, 1}, .y = {-3, 3}}};
+  loop.lines = {{.at = 5, .name = "limit"}};
+  const Figure out = with_limits({.panels = {constant, decades, loop}});
+  CHECK(*out.panels[0].y.low == Approx(4.9).epsilon(1e-3));
+  CHECK(*out.panels[0].y.high == Approx(5.1).epsilon(1e-3));
+  CHECK(*out.panels[0].x.low == 0);
+  CHECK(*out.panels[1].x.high < 3);
+  CHECK(*out.panels[1].x.low < 0.1);
+  CHECK(*out.panels[1].y.low > 0.5);
+  CHECK(*out.panels[1].y.high > 110);
+  CHECK(*out.panels[2].y.low < -3);
+  CHECK(*out.panels[2].y.high > 5);
+  CHECK(*out.panels[2].x.low < -1);
+  // Newtons, as along the axis of the loop.
+  CHECK(out.panels[1].x.prefix_of == out.panels[2].y.prefix_of);
+  CHECK(*out.panels[1].x.prefix_of == *out.panels[2].y.high);
+}
+
 TEST_CASE("The maps of a surface of a study hold its values where its points are", "[figures]") {
   SurfacePicture picture;
   picture.stride = 1;
@@ -207,6 +238,8 @@ TEST_CASE("The maps of a surface of a study hold its values where its points are
               &pressure = *figure.panels[2].image;
   CHECK(heights.values(1, 2) == 5);
   CHECK(heights.y.at(1) - heights.y.at(0) == Approx(2e-6));
+  // The map ends at the edges of the surface.
+  CHECK(heights.y.back() + 1e-6 == Approx(3 * picture.step_y));
   CHECK(std::isnan(touch.values(0, 0)));
   CHECK(touch.values(0, 1) == 1e6);
   CHECK(touch.values(1, 2) == 2e6);

@@ -254,11 +254,12 @@ def test_pictures_of_a_study_name_its_models_and_draw_its_answer() -> None:
     configuration = salebra.parse_study_configuration(STUDY)
     result = salebra.run_study(configuration.with_models(configuration.compared_models))
     realisation = result.realisations[0]
-    lines = {line.get_label(): line for line in realisation.plot().get_lines()}
-    assert list(lines) == list(result.models)
-    for model in result.models:
-        assert np.array_equal(lines[model].get_ydata(), realisation.model(model).curve.pressure)
-        assert realisation.model(model).plot().get_lines()[0].get_label() == model
+    lines = realisation.plot().get_lines()
+    titles = [line.get_label() for line in lines]
+    assert len(set(titles)) == len(result.models) and titles[0] == "boundary elements"
+    for model, line, title in zip(result.models, lines, titles):
+        assert np.array_equal(line.get_ydata(), realisation.model(model).curve.pressure)
+        assert realisation.model(model).plot().get_lines()[0].get_label() == title
     # Each curve has a name of its own as well.
     assert len({realisation.model(model).curve.model for model in result.models}) == len(result.models)
 

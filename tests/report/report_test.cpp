@@ -191,6 +191,8 @@ TEST_CASE("A page draws the panels that the program draws of the same study, to 
     // Only the first panel of the program names the models.
     for (Json* panel : {&page, &own})
       for (Json& curve : (*panel)["curves"]) curve.erase("name");
+    // Only the first row of the program has the second scale of the pressure.
+    if (!own.contains("second_x")) page.erase("second_x");
     CHECK(page == own);
   }
   CHECK(k == drawn.size());
@@ -200,9 +202,9 @@ TEST_CASE("A page draws the panels that the program draws of the same study, to 
   study.stick = false;
   CHECK(figures::figure_of(run_study(study)).panels.size() == drawn.size() - 1);
   CHECK_THAT(figures::figure_of(result).caption, Contains(shown["motion"].get<std::string>()));
-  CHECK_THAT(shown["motion"].get<std::string>(), Contains("Motion: slow shear over 2 µm at ") &&
-                                                     Contains("mean indentation held") &&
-                                                     Contains("µ = 0.3"));
+  CHECK_THAT(shown["motion"].get<std::string>(),
+             Contains("Motion: u_z = ") && Contains("X = 2 µm") &&
+                 Contains("mean indentation held") && Contains("µ = 0.3"));
 }
 
 TEST_CASE("Direct results stand beside the damping of the same motion and of no other",

@@ -32,6 +32,7 @@ struct Axis {
   bool logarithmic = false;
   /// Limits in the unit of the data; empty: chosen to fit the data.
   std::optional<double> low = {}, high = {};
+  std::optional<double> prefix_of = {};  ///< value whose SI prefix the unit gets; empty: the limits
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Axis>) {
@@ -42,6 +43,7 @@ constexpr void describe(auto&& visit, std::type_identity<Axis>) {
   visit(&S::logarithmic, Kept{"logarithmic", "whether the scale is logarithmic"});
   visit(&S::low, Kept{"low", "lower limit"});
   visit(&S::high, Kept{"high", "upper limit"});
+  visit(&S::prefix_of, Kept{"prefix_of", "value whose SI prefix the unit gets"});
 }
 
 /// A second scale of the same axis, on the opposite side of the panel.
@@ -187,6 +189,11 @@ constexpr void describe(auto&& visit, std::type_identity<Figure>) {
   visit(&S::panels, Kept{"panels", "panels, row by row"});
   visit(&S::columns, Kept{"columns", "panels in a row; 0: about a square"});
 }
+
+/// The figure with limits for all its axes except those of images, and with one SI prefix for a
+/// quantity that several panels have. An axis of values that are constant to within a percent does
+/// not magnify their differences. figure_json() and the pictures have these limits.
+Figure with_limits(Figure figure);
 
 /// Escapes the characters of a text that are markup, so that the text (such as a file name) is
 /// drawn as it is.

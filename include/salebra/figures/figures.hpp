@@ -189,7 +189,7 @@ Figure figure_of(const SliderMotion& motion);
 /// backbone, of which the loop is twice the size (Masing). displacement, force: of the loop, m and
 /// N. limits: low and high, J, of each loss of several joints; empty: the errors of the losses.
 Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>& displacement,
-                 const std::vector<double>& force,
+                 const std::vector<double>& force, double normal_force, double friction_coefficient,
                  const std::array<std::vector<double>, 2>& limits = {});
 
 /// Fig. 3 of the paper: for each outcome the map of the cells (black if always in contact, grey if in

@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/row_partition.hpp>
+#include <salebra/figures/figure.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string>
@@ -96,7 +97,7 @@ void figure_methods(nb::class_<Bound>& bound, Drawn drawn) {
         "figure",
         [drawn](const Bound& self) {
           require_whole_if_spread(self, "a figure");
-          return drawn(self);
+          return figures::with_limits(drawn(self));
         },
         "What is drawn of the result, as data.");
   bound.def(
