@@ -8,6 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/figures/figures.hpp>
 #include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <tuple>
@@ -350,6 +351,9 @@ void run_one(const StudyArguments& arguments, Session& session) {
                                       {arguments.sensitivity, "--sensitivity"},
                                       {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
+  const Tolerances tolerances = tolerances_of(arguments.tolerances);
+  require_that(tolerances.empty() || arguments.sensitivity, "--tolerance",
+               "needs the sensitivities; add --sensitivity");
   StudyConfiguration configuration;
   collectively(session.communicator(), [&] { configuration = arguments.study(); });
   run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
@@ -374,6 +378,8 @@ void run_one(const StudyArguments& arguments, Session& session) {
       if (found.interrupted) throw Interrupted("study: interrupted");
       json["sensitivity"] = sensitivity_json(found);
       text += "\n" + sensitivity_text(found);
+      if (!tolerances.empty()) text += add_tolerances(json["sensitivity"], found, tolerances);
+      return PointAnswer{std::move(json), text, figures::figure_of(found)};
     }
     return PointAnswer{std::move(json), text};
   });
@@ -466,6 +472,11 @@ void add_study_command(Program& program) {
   command.add_flag("--sensitivity", arguments->sensitivity,
                    "also compute how the results respond to the parameters and to each octave of "
                    "wavelengths: d ln result/d ln parameter. Takes about twenty times as long");
+  command
+      .add_option("--tolerance", arguments->tolerances,
+                  "with --sensitivity: tolerances of parameters, such as rms_height=10%; prints "
+                  "the limits of the results, to first order")
+      ->type_name("NAME=VALUE ...");
 }
 
 }  // namespace salebra::cli

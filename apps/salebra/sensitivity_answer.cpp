@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 
+#include "option_words.hpp"
 #include "results/answer_json.hpp"
 #include "text.hpp"
 
@@ -81,6 +83,47 @@ std::string sensitivity_text(const StudySensitivity& found) {
     if (const std::string sentence = found.sentence(outputs.back(), middle); !sentence.empty())
       text += "  " + sentence + "\n";
   return text;
+}
+
+Tolerances tolerances_of(const std::vector<std::string>& texts) {
+  Tolerances tolerances;
+  for (const std::string& text : texts) {
+    const auto equals = text.find('=');
+    const auto parameter = parse_enum<StudyParameter>(text.substr(0, equals));
+    require(parameter && equals != std::string::npos, "--tolerance", text,
+            "must be a parameter of the table of sensitivities and its tolerance, such as "
+            "rms_height=10%");
+    const double value =
+        parse_quantity(text.substr(equals + 1), Dimension::dimensionless, "--tolerance");
+    require(value > 0 && value < 1, "--tolerance", text, "must be between 0 and 100 %");
+    tolerances.emplace_back(*parameter, value);
+  }
+  return tolerances;
+}
+
+std::string add_tolerances(Json& json, const StudySensitivity& found,
+                           const Tolerances& tolerances) {
+  std::vector<std::vector<std::string>> rows{{"result", "within"}};
+  const std::size_t middle = found.pressures.size() / 2;
+  std::vector<std::string> outputs;
+  for (const ParameterSensitivity& one : found.parameters)
+    for (const OutputSensitivity& output : one.outputs)
+      if (std::ranges::find(outputs, output.output) == outputs.end())
+        outputs.push_back(output.output);
+  for (const std::string& output : outputs) {
+    std::vector<double> factors;
+    for (std::size_t k = 0; k < found.pressures.size(); ++k)
+      factors.push_back(found.factor_of(tolerances, output, k));
+    const double factor = factors[middle];
+    rows.push_back({output, std::isnan(factor)
+                                ? "n/a"
+                                : fmt::format("-{:.0f} … +{:.0f} %", 100 * (1 - 1 / factor),
+                                              100 * (factor - 1))});
+    json["tolerance"][output] = factors;
+  }
+  return fmt::format("With these tolerances, at {}, to first order\n",
+                     format_quantity(found.pressures[middle], Dimension::pressure, 3)) +
+         to_table(rows, 2, true);
 }
 
 }  // namespace salebra::cli

@@ -680,7 +680,8 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
   StudyReport report(arguments, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
   if (results.empty()) return;
-  if (session.has_plot()) session.plot(figures::figure_of(results, configuration.ensemble));
+  figures::Figure picture;
+  if (session.has_plot()) picture = figures::figure_of(results, configuration.ensemble);
   StudyFiles files{.report = report.write()};
   if (session.has_output()) files.results = session.output().string();
   Json answer;
@@ -697,7 +698,12 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
       text += (text.empty() ? "== " : "\n== ") + name + " ==\n";
     }
     text += point.text;
+    if (results.size() == 1) {
+      std::ranges::move(point.more.panels, std::back_inserter(picture.panels));
+      picture.caption += (point.more.caption.empty() ? "" : " ") + point.more.caption;
+    }
   }
+  if (session.has_plot()) session.plot(picture);
   answer["files"] = salebra::to_json(files);
   if (!session.communicator().alone()) answer["groups"] = std::max(1, arguments.groups);
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;

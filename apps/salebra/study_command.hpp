@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <salebra/figures/figure.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
@@ -38,9 +39,10 @@ struct StudyArguments {
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
-  bool verbose = false;      ///< only an option of `study`
-  bool sensitivity = false;  ///< only an option of `study`
-  int groups = 0;            ///< number of groups of processes; 0: one group
+  bool verbose = false;                 ///< only an option of `study`
+  bool sensitivity = false;             ///< only an option of `study`
+  std::vector<std::string> tolerances;  ///< of `study`: NAME=VALUE
+  int groups = 0;                       ///< number of groups of processes; 0: one group
 
   /// over_processes: whether several processes of salebra-mpi may compute the study, and whether it
   /// takes several surfaces.
@@ -57,6 +59,7 @@ inline constexpr OutputCheck study_output = OutputCheck::by_command;
 struct PointAnswer {
   Json answer;
   std::string text;
+  figures::Figure more = {};  ///< panels that follow those of the study, if it has one point
 };
 
 /// Runs a study, draws its picture, keeps it, and answers with answer_point for each point of the

@@ -16,6 +16,7 @@
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/generators/profile.hpp>
+#include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
 #include <salebra/surface/bearing.hpp>
@@ -197,9 +198,9 @@ void bind_figures(nb::module_& parent) {
                 Profile, MonteCarloCurve, AsperityDamping, SampledMotion, TrajectoryDamping,
                 ViscoelasticDamping, ViscoelasticIndentation, ContactSetAt, CycleResult,
                 SliderMotion, StressMap, FrictionMap, RegimeMap, DamperMap, SurfacePicture,
-                ModelResult, Realisation, StudyResult, StudySolution, BoundDampingCurve,
-                CurveOf<DampingPoint>, CurveOf<EnsembleMean>, CurveOf<StatedMean>,
-                CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
+                ModelResult, Realisation, StudyResult, StudySolution, StudySensitivity,
+                BoundDampingCurve, CurveOf<DampingPoint>, CurveOf<EnsembleMean>,
+                CurveOf<StatedMean>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
   bind_laws();
 }
 

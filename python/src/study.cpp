@@ -429,13 +429,13 @@ progress : bool or callable
       .def(
           "find",
           [](const StudySensitivity& self, const std::string& parameter,
-             const std::string& output) -> std::optional<CurveOf<EnsembleMean>> {
+             const std::string& output) {
             const OutputSensitivity* found = self.find(parameter, output);
-            if (!found) return {};
+            require(found != nullptr, "parameter", parameter + ", " + output,
+                    "have no sensitivity; see `parameters`");
             return CurveOf<EnsembleMean>{"pressure", self.pressures, found->at_pressures, output};
           },
-          nb::arg("parameter"), nb::arg("output"),
-          "d ln output/d ln parameter over the pressure; None if it is not known.")
+          nb::arg("parameter"), nb::arg("output"), "d ln output/d ln parameter over the pressure.")
       .def(
           "sentence",
           [](const StudySensitivity& self, const std::string& output, std::size_t index) {

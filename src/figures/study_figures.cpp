@@ -9,6 +9,7 @@
 #include <numbers>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/study/sensitivity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
 #include <salebra/surface/lay.hpp>
@@ -488,6 +489,43 @@ Figure figure_of(const StudySolution& solution) {
     panel.curves.back().color = 1;
   }
   return {.kind = "study_solution", .panels = {panel}};
+}
+
+Figure figure_of(const StudySensitivity& found, std::size_t index) {
+  const std::string load = format_quantity(found.pressures.at(index), Dimension::pressure, 3);
+  Figure figure{.kind = "sensitivity",
+                .caption = "What decides the results at a nominal pressure of " + load +
+                           ": their response to the amplitude of each octave of waves, with 95 % "
+                           "limits."};
+  Panel panel{.title = "Response to waves at " + load,
+              .x = {.label = "wavelength λ", .unit = "m", .logarithmic = true},
+              .y = {.quantity = "sensitivity", .label = "d ln(result)/d ln(amplitude)"},
+              .lines = {{.at = 0}},
+              .legend = Legend::right_of_panel};
+  for (const auto& [output, name] : {std::pair("mean_gap", "mean gap ū"),
+                                     {"contact_area_fraction", "contact area A"},
+                                     {"normal_stiffness", "stiffness K"},
+                                     {"damping_constant", "damping constant γ"}}) {
+    Curve curve{.name = name, .quantity = output, .style = Style::line_and_points};
+    for (const ParameterSensitivity& one : found.parameters)
+      for (const OutputSensitivity& response : one.outputs)
+        if (one.parameter == "waves" && response.output == output) {
+          const EnsembleMean& slope = response.at_pressures.at(index);
+          // The first band has all shorter waves; it is drawn as the octave that ends it.
+          const double shortest = one.shortest > 0 ? one.shortest : one.longest / 2;
+          curve.x.push_back(std::sqrt(shortest * one.longest));
+          curve.y.push_back(slope.mean);
+          curve.low.push_back(slope.low);
+          curve.high.push_back(slope.high);
+        }
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Figure figure_of(const StudySensitivity& found) {
+  return figure_of(found, found.pressures.size() / 2);
 }
 
 }  // namespace salebra::figures

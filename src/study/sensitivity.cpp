@@ -244,6 +244,17 @@ const OutputSensitivity* StudySensitivity::find(std::string_view parameter,
   return nullptr;
 }
 
+double StudySensitivity::factor_of(const std::vector<std::pair<StudyParameter, double>>& tolerances,
+                                   std::string_view output, std::size_t pressure) const {
+  double sum = 0;
+  for (const auto& [parameter, tolerance] : tolerances) {
+    const OutputSensitivity* found = find(name_of(parameter), output);
+    sum +=
+        found ? std::abs(found->at_pressures.at(pressure).mean) * std::log1p(tolerance) : unknown;
+  }
+  return std::exp(sum);
+}
+
 std::string StudySensitivity::sentence(std::string_view output, std::size_t pressure) const {
   struct Share {
     double shortest, longest, size;

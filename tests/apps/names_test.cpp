@@ -196,7 +196,7 @@ void check_numbers(const json& object, const std::string& parent) {
         value.is_number() || (value.is_array() && !value.empty() && value[0].is_number());
     if (numbers)
       CHECK((is_listed(key) || is_listed(parent) || assumption_keys().contains(parent) ||
-             indices.contains(key) || counts.contains(key)));
+             indices.contains(key) || counts.contains(key) || parent == "waves"));
     if (value.is_object()) check_numbers(value, key);
     if (value.is_array())
       for (const json& item : value)

@@ -164,6 +164,27 @@ TEST_CASE("The response of the mean gap to waves is their mean under the pressur
   }
 }
 
+TEST_CASE("Limits of a result by tolerances are those of studies at the limits of the parameters",
+          "[sensitivity]") {
+  using enum StudyParameter;
+  const StudyConfiguration study = study_of(48, {1, 2, 3});
+  const StudySensitivity found = study_sensitivity(study, {.waves = false});
+  const std::vector<std::pair<StudyParameter, double>> tolerances{{rms_height, 0.1},
+                                                                  {pressure, 0.15}};
+  const auto stiffness = [&](double height, double load) {
+    return run_study(scaled(scaled(study, rms_height, height), pressure, load))
+        .curve(&ForceSample::normal_stiffness);
+  };
+  const auto soft = stiffness(1.1, 1 / 1.15), stiff = stiffness(1 / 1.1, 1.15);
+  for (const std::size_t k : {1u, 2u}) {
+    // The two ends are the square of the factor apart; the curvature of ln K and single cells.
+    const double factor = found.factor_of(tolerances, "normal_stiffness", k);
+    CHECK(std::log(stiff[k].mean / soft[k].mean) == Approx(2 * std::log(factor)).epsilon(0.1));
+    CHECK(factor > 1.2);
+  }
+  CHECK(std::isnan(found.factor_of({{friction_coefficient, 0.1}}, "normal_stiffness", 0)));
+}
+
 TEST_CASE("A parameter at its limit is left out of the responses, with the reason",
           "[sensitivity]") {
   StudyConfiguration study = study_of(32, {1, 2});

@@ -45,6 +45,7 @@ struct SlidingProblem;
 struct SpotStatistics;
 struct StressMap;
 struct StudyResult;
+struct StudySensitivity;
 struct StudySolution;
 struct SummitList;
 struct Surface;
@@ -218,6 +219,11 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
 /// the titles of the columns. A report has the same panels.
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied);
 Figure figure_of(const StudyResult& result);
+/// How results respond to each band of waves at a pressure, over the geometric mean of its
+/// wavelengths, with 95 % limits; no panel without bands. index: of the pressure.
+Figure figure_of(const StudySensitivity& found, std::size_t index);
+/// The same at the middle pressure.
+Figure figure_of(const StudySensitivity& found);
 /// The damping constants over the pressure with their 95 % limits, or with their numerical errors for
 /// a single surface; without slip too.
 Figure figure_of(const StudySolution& solution);

@@ -94,6 +94,11 @@ struct StudySensitivity {
 
   /// The sensitivity of an output to a parameter; nullptr if there is none.
   const OutputSensitivity* find(std::string_view parameter, std::string_view output) const;
+  /// The largest factor by which an output leaves its mean if each parameter leaves its own by up to
+  /// a relative tolerance t, exp Σ|r| ln(1 + t), to first order in ln(parameter). It leaves out the
+  /// error of r. NaN if a sensitivity is not known.
+  double factor_of(const std::vector<std::pair<StudyParameter, double>>& tolerances,
+                   std::string_view output, std::size_t pressure) const;
   /// What the bands of waves say about a result at a pressure, as a sentence: which waves decide it,
   /// and whether it depends on the shortest ones. Empty without bands.
   std::string sentence(std::string_view output, std::size_t pressure) const;
