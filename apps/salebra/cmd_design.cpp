@@ -37,9 +37,10 @@ Json design_json(const DesignProblem& problem, const Design& found) {
     Json point = Json::object();
     point["force"] = one.force;
     point["pressure"] = one.pressure;
-    point["target"] = one.target;
-    point["result"] = to_json(one.output);
-    point["one_surface"] = to_json(one.surface);
+    Json& result = point[problem.target.output] = to_json(one.output);
+    result["target"] = one.target;
+    result["surface_low"] = one.surface.low;
+    result["surface_high"] = one.surface.high;
     points.push_back(std::move(point));
   }
   json["points"] = std::move(points);
