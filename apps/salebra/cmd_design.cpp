@@ -20,7 +20,6 @@ namespace {
 Json design_json(const DesignProblem& problem, const Design& found) {
   Json json = Json::object();
   json["output"] = problem.target.output;
-  json["tolerance"] = problem.target.tolerance;
   json["met"] = found.met;
   json["deviation"] = found.deviation;
   for (const DesignedParameter& one : found.parameters) {
@@ -44,7 +43,6 @@ Json design_json(const DesignProblem& problem, const Design& found) {
     points.push_back(std::move(point));
   }
   json["points"] = std::move(points);
-  json["studies"] = found.studies;
   return json;
 }
 
