@@ -313,6 +313,8 @@ std::vector<WideLoss> WideOscillation::on(SurfaceContacts& contacts_at) {
   for (std::size_t k = 0; k < loads_.size(); ++k)
     losses[k].possible_amplitude = possible_amplitude_[k];
   if (!(highest_ > lowest_) || !contacts_at.usable()) return losses;
+  // Without the loss of the first grid, that of another grid has no intervals and no error.
+  if (!first && own_.empty()) return losses;
 
   const bool chooses =
       first && (options_.choose_intervals || options_.coarsen || options_.refinements > 0);

@@ -14,6 +14,7 @@
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "damping/surface_contacts.hpp"
 #include "surface/refine.hpp"
 
 using namespace salebra;
@@ -340,4 +341,37 @@ TEST_CASE("Steady sliding of a surface that lifts off has the forces of its spri
   // K_t/K of this surface varies by some per cent between the load and the largest force.
   CHECK(stuck.low_speed_damping == Approx(damping).epsilon(0.05));
   CHECK(stuck.relaxation_damping == Approx(damping).epsilon(0.05));
+}
+
+TEST_CASE("Where the contacts of the first grid fail, those of the second give no loss", "[wide]") {
+  const Surface surface = rough(32, 4);
+  const Oscillation motion = Drag{4e-9, 1e-6, angular_frequency};
+  const SurfaceDampingOptions options{.coarsen = true};
+  const double pressure = 2e6;
+  const auto oscillation = [&] {
+    return detail::WideOscillation(material, motion, options, Hold::indentation, 0,
+                                   {{pressure, pressure * surface.grid.area()}}, {});
+  };
+  int calls = 0, most = std::numeric_limits<int>::max();
+  const Progress stops = [&](const ProgressReport&) { return ++calls <= most; };
+  const auto losses_on = [&](detail::WideOscillation& wide, const Progress& progress) {
+    detail::SurfaceContacts contacts(surface, material, wide.contact_options(progress));
+    try {
+      return wide.on(contacts).front();
+    } catch (const Interrupted&) {
+      return detail::WideLoss{};
+    }
+  };
+  detail::WideOscillation whole = oscillation();
+  CHECK(losses_on(whole, stops).without_slip.work > 0);
+  CHECK(losses_on(whole, {}).without_slip.work > 0);
+  const int all = calls;
+  REQUIRE(all > 20);
+  for (const double part : {0.1, 0.3, 0.5, 0.7}) {
+    CAPTURE(part);
+    detail::WideOscillation wide = oscillation();
+    calls = 0, most = int(part * all);
+    CHECK(std::isnan(losses_on(wide, stops).without_slip.work));
+    CHECK(std::isnan(losses_on(wide, {}).without_slip.work));
+  }
 }
