@@ -24,8 +24,8 @@ enum class Parity { even, odd, odd_along_x, odd_along_y, by_inversion };
 /// transformed, multiplied by the symbols and transformed back. The result has the same bits for
 /// every thread count. An object may be used by one thread at a time. Memory during use:
 /// sizeof(Real) bytes for each component and each of nx·period_y points, (2 − 1/P) times as much
-/// with P processes, plus a quarter of sizeof(Real) for each symbol and each point of the period, half of it by
-/// inversion.
+/// with P processes; and for each symbol and each point of the period a quarter of sizeof(Real), or
+/// half of it for a kernel that is by_inversion.
 template <class Real>
 class Convolution2D {
  public:

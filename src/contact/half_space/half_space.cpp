@@ -222,6 +222,13 @@ struct WaveOfGrid {
   }
 };
 
+// The mean of a response at (qx, qy) and (−qx, qy), which differ only if the body is directional.
+template <class Response>
+double mean_of_sides(const Body& body, const WaveOfGrid& q, const Response& response) {
+  return body.is_directional() ? (response(q.x, q.y) + response(-q.x, q.y)) / 2
+                               : response(q.x, q.y);
+}
+
 }  // namespace
 
 double cell_compliance(const Grid2D& grid, const NormalResponse& response) {
@@ -231,27 +238,27 @@ double cell_compliance(const Grid2D& grid, const NormalResponse& response) {
   double sum = 0;
   for (int a = 0; a < samples; ++a)
     for (int b = 0; b < samples; ++b)
-      for (const int side : {-1, 1}) {
-        const WaveOfGrid q(grid, side * pi / samples * (a + 0.5) / grid.dx(),
-                           pi / samples * (b + 0.5) / grid.dy());
-        sum += response.compliance(q.x, q.y) / 2;
-      }
+      sum += mean_of_sides(*response.body,
+                           WaveOfGrid(grid, pi / samples * (a + 0.5) / grid.dx(),
+                                      pi / samples * (b + 0.5) / grid.dy()),
+                           [&](double qx, double qy) { return response.compliance(qx, qy); });
   return sum / (samples * samples);
 }
 
 InverseStencil inverse_stencil(const Grid2D& grid, const NormalResponse& response) {
   if (!response.body) return InverseStencil(grid);
   return InverseStencil(grid, [&](double qx, double qy) {
-    const WaveOfGrid q(grid, qx, qy);
-    return 1 / response.compliance(q.x, q.y);
+    return mean_of_sides(*response.body, WaveOfGrid(grid, qx, qy),
+                         [&](double x, double y) { return 1 / response.compliance(x, y); });
   });
 }
 
 InverseStencil tangential_inverse_stencil(const Grid2D& grid, const Body& body) {
   return InverseStencil(grid, [&](double qx, double qy) {
-    const WaveOfGrid q(grid, qx, qy);
-    const SurfaceCompliance c = body.compliance(q.x, q.y);
-    return 2 / (c.in_plane + c.across);
+    return mean_of_sides(body, WaveOfGrid(grid, qx, qy), [&](double x, double y) {
+      const SurfaceCompliance c = body.compliance(x, y);
+      return 2 / (c.in_plane + c.across);
+    });
   });
 }
 
@@ -465,10 +472,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
 
 InverseStencil::InverseStencil(const Grid2D& grid,
                                const std::function<double(double qx, double qy)>& symbol) {
-  set_weights(grid, [&](double x, double y) {
-    const double qx = 2 * pi / torus * x, qy = 2 * pi / torus * y;
-    return (symbol(qx, qy) + symbol(-qx, qy)) / 2;
-  });
+  set_weights(grid,
+              [&](double x, double y) { return symbol(2 * pi / torus * x, 2 * pi / torus * y); });
 }
 
 void InverseStencil::set_weights(const Grid2D& grid,
@@ -480,12 +485,13 @@ void InverseStencil::set_weights(const Grid2D& grid,
     return cosine[static_cast<std::size_t>((i * j % torus + torus) % torus)];
   };
   std::array<std::array<double, torus>, torus> symbol;
-  for (int a = 0; a < torus; ++a)
-    for (int b = 0; b < torus; ++b)
-      symbol[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] =
-          a == 0 && b == 0
-              ? 0
-              : inverse(std::min(a, torus - a) / grid.dx(), std::min(b, torus - b) / grid.dy());
+  const auto at = [](int a) { return static_cast<std::size_t>(a % torus); };
+  for (int a = 0; a <= torus / 2; ++a)
+    for (int b = 0; b <= torus / 2; ++b) {
+      const double value = a == 0 && b == 0 ? 0 : inverse(a / grid.dx(), b / grid.dy());
+      for (const int i : {a, torus - a})
+        for (const int j : {b, torus - b}) symbol[at(i)][at(j)] = value;
+    }
   weights_.fill(0);
   for (int i = 0; i <= radius; ++i)
     for (int a = 0; a < torus; ++a)

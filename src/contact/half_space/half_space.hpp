@@ -78,8 +78,8 @@ class InverseStencil {
   /// Stencil of the half-space; depends only on dx and dy. The weights are symmetric, and their Fourier
   /// transform is positive.
   explicit InverseStencil(const Grid2D& grid);
-  /// Stencil of another symbol of the inverse, as a function of the wave vector; at q = 0 the symbol is
-  /// 0. The weights are those of the mean of (q_x, q_y) and (−q_x, q_y).
+  /// Stencil of another symbol of the inverse, a function of the wave vector that is even in q_x and
+  /// in q_y; at q = 0 the symbol is 0.
   InverseStencil(const Grid2D& grid, const std::function<double(double qx, double qy)>& symbol);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius, 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
