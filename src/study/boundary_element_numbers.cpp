@@ -2,7 +2,6 @@
 // Numbers by boundary elements of the surfaces of a study and of variants of it.
 #include "boundary_element_numbers.hpp"
 
-#include <limits>
 #include <salebra/base/error.hpp>
 
 #include "base/special_values.hpp"
@@ -42,7 +41,8 @@ BoundaryElementNumbers::BoundaryElementNumbers(const StudyConfiguration& configu
     : base_(configuration), progress_(progress) {
   require_that(configuration.ensemble.empty(), "ensemble",
                "gives several values of a parameter; give one of each");
-  require_that(!configuration.adhesion, "adhesion", "is not known here; leave it out");
+  require_that(!configuration.adhesion, "adhesion",
+               "given; sensitivities and designs are those of contacts without adhesion");
   const StudyLoads loads = study_loads(configuration);
   base_.pressures = loads.pressures;
   base_.relative_pressures = false;
@@ -54,9 +54,10 @@ BoundaryElementNumbers::BoundaryElementNumbers(const StudyConfiguration& configu
   base_.window = {};
   if (!base_.intervals) base_.intervals = 4;  // as for several surfaces
   seeds_ = seeds_of(configuration);
-  const Surface first = study_surface(base_, seeds_.front());
+  Surface first = study_surface(base_, seeds_.front());
   grid_ = first.grid;
   if (!base_.found_hold) base_.found_hold = hold_of(base_, first, base_.pressures.front());
+  if (std::holds_alternative<MeasuredSurface>(base_.surfaces)) measured_ = std::move(first);
 }
 
 void BoundaryElementNumbers::set_seeds(std::vector<std::uint64_t> seeds) {
@@ -65,6 +66,7 @@ void BoundaryElementNumbers::set_seeds(std::vector<std::uint64_t> seeds) {
 
 std::vector<std::vector<BoundaryElementNumbers::OfSurface>> BoundaryElementNumbers::of(
     const std::vector<StudyVariant>& variants) const {
+  if (variants.empty()) return {};
   std::vector<std::vector<OfSurface>> numbers(variants.size(),
                                               std::vector<OfSurface>(seeds_.size()));
   const auto tasks = Index(variants.size() * seeds_.size());
@@ -74,16 +76,21 @@ std::vector<std::vector<BoundaryElementNumbers::OfSurface>> BoundaryElementNumbe
                                      .fraction = double(loop.finished()) / double(tasks),
                                      .step = loop.finished()});
                  }});
-  loop.run(tasks, [&](Index task) {
+  const auto compute = [&](Index task) {
     const std::size_t v = std::size_t(task) / seeds_.size(), s = std::size_t(task) % seeds_.size();
     StudyConfiguration configuration = variants[v].configuration;
     put_second(configuration, seeds_[s]);
-    Surface surface = study_surface(configuration, seeds_[s]);
+    Surface surface = measured_ ? *measured_ : study_surface(configuration, seeds_[s]);
     if (variants[v].surface) surface = variants[v].surface(std::move(surface));
     const Progress going_on = [&](const ProgressReport&) { return loop.going_on(); };
     numbers[v][s] = numbers_of(analyse_realisation(std::move(surface), configuration, seeds_[s],
                                                    configuration.pressures, going_on));
-  });
+  };
+  try {
+    loop.run(tasks, compute);
+  } catch (const Interrupted&) {
+    return {};
+  }
   if (loop.stopped()) return {};
   return numbers;
 }

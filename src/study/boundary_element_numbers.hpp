@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <salebra/base/progress.hpp>
 #include <salebra/study/study.hpp>
 #include <string_view>
@@ -37,12 +38,13 @@ class BoundaryElementNumbers {
   const std::vector<std::uint64_t>& seeds() const { return seeds_; }
 
   // Numbers of each surface (second index) of each variant; those of contacts that did not converge
-  // are NaN. Empty if progress says stop. In parallel over all; same bits for any number of threads.
+  // are NaN. Empty if progress says stop, or without variants. In parallel over all; same bits for any number of threads.
   std::vector<std::vector<OfSurface>> of(const std::vector<StudyVariant>& variants) const;
 
  private:
   StudyConfiguration base_;
   Grid2D grid_;
+  std::optional<Surface> measured_;  // read once; empty for generated surfaces
   std::vector<std::uint64_t> seeds_;
   Progress progress_;
 };

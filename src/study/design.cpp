@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/study/design.hpp>
@@ -79,7 +78,7 @@ class Search {
  public:
   Search(const DesignProblem& problem, const Progress& progress)
       : problem_(problem),
-        study_(with_forces(problem), progress),
+        study_(for_search(problem), progress),
         output_(index_of(problem.target.output)) {}
 
   std::vector<double> start(double fraction) const {
@@ -98,26 +97,26 @@ class Search {
     return std::sqrt(one.low * one.high) * std::pow(one.high / one.low, std::sin(x) / 2);
   }
 
-  StudyConfiguration at(const std::vector<double>& thetas) const {
-    StudyConfiguration configuration = study_.base();
+  /// The study with these parameters.
+  StudyConfiguration at(StudyConfiguration study, const std::vector<double>& thetas) const {
     for (std::size_t p = 0; p < thetas.size(); ++p) {
       const StudyParameter parameter = problem_.free[p].parameter;
-      configuration = scaled(std::move(configuration), parameter,
-                             thetas[p] / value_of(configuration, parameter));
+      const double factor = thetas[p] / value_of(study, parameter);
+      study = scaled(std::move(study), parameter, factor);
     }
-    return configuration;
+    return study;
   }
 
-  /// Residuals ln(⟨Y⟩/value)/ln(1 + tolerance) at each force, for each set of parameters.
+  /// Residuals ln(⟨Y⟩/value)/ln(1 + tolerance) at each force, for each set of parameters; NaN where
+  /// there is no number, and for a spectrum that no surface can have.
   std::vector<std::vector<double>> residuals(const std::vector<std::vector<double>>& sets) {
-    // Where there is no number, and for a spectrum that no surface can have, the target is far.
-    constexpr double far = 50;
     const std::size_t forces = problem_.target.force.size();
-    std::vector<std::vector<double>> found(sets.size(), std::vector<double>(forces, far));
+    std::vector<std::vector<double>> found(sets.size(),
+                                           std::vector<double>(forces, detail::unknown));
     std::vector<StudyVariant> variants;
     std::vector<std::size_t> of_variant;
     for (std::size_t s = 0; s < sets.size(); ++s) try {
-        variants.push_back({.configuration = at(sets[s]), .surface = {}});
+        variants.push_back({.configuration = at(study_.base(), sets[s]), .surface = {}});
         of_variant.push_back(s);
       } catch (const InvalidInput&) {
       }
@@ -139,11 +138,13 @@ class Search {
     return list;
   }
 
+  /// The residual that the search takes where there is none: the target is far.
+  static constexpr double far = 50;
+
   /// The minimum that a start leads to.
   struct Minimum {
     std::vector<double> thetas;
-    double worst = 0;                              ///< largest |residual|
-    std::vector<std::vector<double>> logarithmic;  ///< d residual/d ln θ [parameter][force]
+    double worst = 0;  ///< largest |residual|
   };
   Minimum minimum(std::vector<double> x) {
     const std::size_t n = problem_.target.force.size(), p = x.size();
@@ -151,7 +152,8 @@ class Search {
     functions.f = [](const gsl_vector* at, void* self, gsl_vector* f) {
       return static_cast<Search*>(self)->guarded([&](Search& search) {
         const auto found = search.residuals({search.thetas_of(at)}).front();
-        for (std::size_t k = 0; k < found.size(); ++k) gsl_vector_set(f, k, found[k]);
+        for (std::size_t k = 0; k < found.size(); ++k)
+          gsl_vector_set(f, k, std::isnan(found[k]) ? far : found[k]);
       });
     };
     functions.df = [](const gsl_vector* at, void* self, gsl_matrix* j) {
@@ -161,7 +163,7 @@ class Search {
           const FreeParameter& one = search.problem_.free[q];
           const double factor = std::log(one.high / one.low) / 2 * std::cos(gsl_vector_get(at, q));
           for (std::size_t k = 0; k < slopes[q].size(); ++k)
-            gsl_matrix_set(j, k, q, factor * slopes[q][k]);
+            gsl_matrix_set(j, k, q, std::isnan(slopes[q][k]) ? 0 : factor * slopes[q][k]);
         }
       });
     };
@@ -184,15 +186,14 @@ class Search {
           gsl_multifit_nlinear_test(1e-2, 1e-2, 1e-2, &info, workspace.get()) == GSL_SUCCESS)
         break;
     }
-    Minimum found{.thetas = thetas_of(gsl_multifit_nlinear_position(workspace.get())),
-                  .logarithmic = {}};
+    Minimum found{.thetas = thetas_of(gsl_multifit_nlinear_position(workspace.get()))};
     const gsl_vector* left = gsl_multifit_nlinear_residual(workspace.get());
     for (std::size_t k = 0; k < n; ++k)
       found.worst = std::max(found.worst, std::abs(gsl_vector_get(left, k)));
     return found;
   }
 
-  /// d residual/d ln θ [parameter][force].
+  /// d residual/d ln θ [parameter][force]; NaN where a side has no residual.
   std::vector<std::vector<double>> slopes(const std::vector<double>& thetas) {
     const double step = SensitivityOptions().step;
     std::vector<std::vector<double>> sets;
@@ -214,7 +215,7 @@ class Search {
   BoundaryElementNumbers& study() { return study_; }
   int studies = 0;
 
- private:
+  /// The study of the problem at the forces of its target.
   static StudyConfiguration with_forces(const DesignProblem& problem) {
     StudyConfiguration study = problem.study;
     const double area = std::get<GeneratedSurfaces>(study.surfaces).grid.area();
@@ -222,6 +223,12 @@ class Search {
     for (const double force : problem.target.force) study.pressures.push_back(force / area);
     study.relative_pressures = false;
     study.pressures_below_hardness = false;
+    return study;
+  }
+
+ private:
+  static StudyConfiguration for_search(const DesignProblem& problem) {
+    StudyConfiguration study = with_forces(problem);
     // A contact needs no oscillation, and most outputs no stick.
     if (!is_loss(problem.target.output)) {
       study.intervals = 0;
@@ -332,18 +339,16 @@ Design design(const DesignProblem& problem, const Progress& progress) {
                                   .high = one.high,
                                   .sensitivity = sum / double(slopes[q].size()),
                                   .at_limit = from_low < 0.01 || from_low > 0.99,
-                                  .matters = largest * range > room});
+                                  .matters = std::isnan(sum) || largest * range > room});
     }
-    found.study = search.at(best->thetas);
-    found.study.intervals = problem.study.intervals;
-    found.study.stick = problem.study.stick;
+    found.study = search.at(Search::with_forces(problem), best->thetas);
     // Other surfaces than those of the search judge the design.
     std::vector<std::uint64_t> seeds = search.study().seeds();
     const std::uint64_t last = *std::ranges::max_element(seeds);
     for (std::size_t s = 0; s < seeds.size(); ++s) seeds[s] = last + 1 + s;
     search.study().set_seeds(std::move(seeds));
-    const auto numbers =
-        search.study().of({{.configuration = search.at(best->thetas), .surface = {}}});
+    const auto numbers = search.study().of(
+        {{.configuration = search.at(search.study().base(), best->thetas), .surface = {}}});
     ++search.studies;
     if (numbers.empty()) throw Interrupted("design: interrupted");
     for (std::size_t k = 0; k < problem.target.force.size(); ++k) {
@@ -354,7 +359,8 @@ Design design(const DesignProblem& problem, const Progress& progress) {
                               .output = student_mean(values),
                               .surface = prediction(values)});
       const double off = std::abs(found.points.back().output.mean / problem.target.value(k) - 1);
-      found.deviation = std::isnan(off) ? detail::infinity : std::max(found.deviation, off);
+      const bool known = !std::isnan(off + found.deviation);
+      found.deviation = known ? std::max(found.deviation, off) : detail::unknown;
     }
     found.met = found.deviation <= problem.target.tolerance;
   } catch (const Interrupted&) {

@@ -12,9 +12,7 @@
 
 #include "base/convolution.hpp"
 #include "base/special_values.hpp"
-#include "base/task_pool.hpp"
 #include "boundary_element_numbers.hpp"
-#include "case_run.hpp"
 #include "estimate.hpp"
 
 namespace salebra {
@@ -32,6 +30,7 @@ Surface with_waves_scaled(Surface surface, double shortest, double longest, doub
   convolution.set_symbol(0, 0, [&](Index i, Index j) {
     const double inverse = std::hypot(double(i) / grid.lx, double(j) / grid.ly);
     constexpr double rounding = 1e-9;
+    // The mean of the heights stays: its product 0·∞ is not a number, so the comparison fails.
     return inverse * shortest < 1 - rounding && inverse * longest >= 1 - rounding ? factor : 1.0;
   });
   convolution.apply(surface.heights.data(), surface.heights.data());
@@ -79,6 +78,8 @@ std::vector<std::pair<double, double>> octaves_of(const StudyConfiguration& base
   const double longest = std::max(grid.lx, grid.ly);
   for (double from = shortest; from < longest * (1 - 1e-9); from *= 2)
     octaves.emplace_back(from, std::min(2 * from, longest));
+  // Without a range of wavelengths all waves are one band.
+  if (octaves.empty()) octaves.emplace_back(0, longest);
   // All shorter waves, such as those along the diagonal of the cells, belong to the first octave.
   octaves.front().first = 0;
   return octaves;
@@ -242,6 +243,14 @@ const OutputSensitivity* StudySensitivity::find(std::string_view parameter,
       for (const OutputSensitivity& found : one.outputs)
         if (found.output == output) return &found;
   return nullptr;
+}
+
+std::vector<std::string> StudySensitivity::outputs() const {
+  std::vector<std::string> names;
+  for (const ParameterSensitivity& one : parameters)
+    for (const OutputSensitivity& found : one.outputs)
+      if (std::ranges::find(names, found.output) == names.end()) names.push_back(found.output);
+  return names;
 }
 
 double StudySensitivity::factor_of(const std::vector<std::pair<StudyParameter, double>>& tolerances,

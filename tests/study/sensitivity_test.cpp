@@ -195,9 +195,24 @@ TEST_CASE("A parameter at its limit is left out of the responses, with the reaso
   CHECK_FALSE(found.find("hurst", "mean_gap"));
   CHECK(found.find("rolloff", "mean_gap"));
   CHECK(found.sentence("mean_gap", 0).empty());
+  // Between a cut-off and a roll-off at the side there is no wave, or one band of all.
+  StudyConfiguration one = study_of(32, {1, 2});
+  std::get<GeneratedSurfaces>(one.surfaces).spectrum.rolloff = side;
+  std::get<GeneratedSurfaces>(one.surfaces).spectrum.short_cutoff = side;
+  const StudySensitivity single = study_sensitivity(one);
+  CHECK(single.parameters.back().parameter == "waves");
+  CHECK(single.parameters.back().longest == side);
   study.ensemble.hurst = {0.5, 0.7};
   CHECK_THROWS_WITH(study_sensitivity(study), Catch::Contains("ensemble"));
   CHECK_THROWS_WITH(study_sensitivity(study_of(32, {1, 2}), {.step = 1}), Catch::Contains("step"));
+}
+
+TEST_CASE("Sensitivities that are stopped say so and have no numbers", "[sensitivity]") {
+  int calls = 0;
+  const StudySensitivity found = study_sensitivity(
+      study_of(32, {1, 2}), {.on_progress = [&](const ProgressReport&) { return ++calls < 3; }});
+  CHECK(found.interrupted);
+  CHECK(found.parameters.empty());
 }
 
 TEST_CASE("A design finds parameters that meet a target which other parameters made", "[design]") {
@@ -238,6 +253,10 @@ TEST_CASE("A design finds parameters that meet a target which other parameters m
     CHECK(point.output.low < point.output.mean);
     CHECK(point.surface.high > point.output.high);
   }
+  for (std::size_t p = 0; p < problem.free.size(); ++p)
+    CHECK(value_of(found.study, problem.free[p].parameter) ==
+          Approx(found.parameters[p].value).epsilon(1e-12));
+  CHECK(found.study.models == study.models);
   // What the design says is what a study of it finds; the loss of its first surface is computed
   // with other contacts in the oscillation, and differs by the error of that.
   StudyConfiguration designed = found.study;

@@ -35,16 +35,18 @@ struct DesignProblem {
 };
 
 /// Reads a problem from a TOML file: `study`, a study file; [target] with `output`, `value`
-/// (one, or one for each force), `tolerance` and `force` (two ends of a range, or at least four forces); [free] with a pair of
-/// limits for each parameter. Throws InvalidInput with the line of the key.
+/// (one, or one for each force), `tolerance` and `force` (two ends of a range, or at least four
+/// forces); [free] with a pair of limits for each parameter. Throws InvalidInput with the line of
+/// the key.
 DesignProblem read_design_problem(const std::filesystem::path& file);
 
 /// A parameter of a design.
 struct DesignedParameter {
   std::string parameter;
   double value = 0, low = 0, high = 0;  ///< SI
-  double sensitivity = 0;  ///< d ln output/d ln parameter at the design, mean over the forces
-  bool at_limit = false;   ///< whether a limit binds it
+  /// d ln output/d ln parameter at the design, mean over the forces; NaN if it is not known at one.
+  double sensitivity = 0;
+  bool at_limit = false;  ///< whether a limit binds it
   /// Whether its whole range changes the output by more than the tolerance, by `sensitivity`.
   bool matters = true;
 };
@@ -82,7 +84,7 @@ struct Design {
   StudyConfiguration study;  ///< the study with the parameters of the design
   std::vector<DesignedParameter> parameters;
   std::vector<DesignPoint> points;
-  double deviation = 0;  ///< largest |mean/target − 1| of the points
+  double deviation = 0;  ///< largest |mean/target − 1| of the points; NaN if a mean is not known
   bool met = false;      ///< whether `deviation` is within the tolerance
   int studies = 0;       ///< studies that the search computed
   bool interrupted = false;

@@ -94,6 +94,8 @@ struct StudySensitivity {
 
   /// The sensitivity of an output to a parameter; nullptr if there is none.
   const OutputSensitivity* find(std::string_view parameter, std::string_view output) const;
+  /// Names of the outputs that some parameter has, each once.
+  std::vector<std::string> outputs() const;
   /// The largest factor by which an output leaves its mean if each parameter leaves its own by up to
   /// a relative tolerance t, exp Σ|r| ln(1 + t), to first order in ln(parameter). It leaves out the
   /// error of r. NaN if a sensitivity is not known.
