@@ -61,7 +61,7 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
     values.push_back({one.parameter, format_quantity(one.value, own, 3),
                       fmt::format("{} to {}", format_quantity(one.low, own, 3),
                                   format_quantity(one.high, own, 3)),
-                      fmt::format("{:.2f}", one.sensitivity),
+                      std::isnan(one.sensitivity) ? "n/a" : fmt::format("{:.2f}", one.sensitivity),
                       one.at_limit   ? "at its limit"
                       : !one.matters ? "hardly matters"
                                      : ""});
@@ -70,11 +70,14 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
     return std::max(one.output.high / one.target, 2 - one.output.low / one.target) <=
            1 + problem.target.tolerance;
   });
-  return fmt::format(
-             "{}: the largest deviation from the target is {:.0f} %, allowed are {:.0f} %\n",
-             found.met ? "The target is met"
-                       : "The target is not met, this is the nearest that was found",
-             100 * found.deviation, 100 * problem.target.tolerance) +
+  const std::string deviation =
+      std::isnan(found.deviation)
+          ? "some means are not known"
+          : fmt::format("the largest deviation from the target is {:.0f} %", 100 * found.deviation);
+  return fmt::format("{}: {}, allowed are {:.0f} %\n",
+                     found.met ? "The target is met"
+                               : "The target is not met, this is the nearest that was found",
+                     deviation, 100 * problem.target.tolerance) +
          to_table(values, 2, true) + to_table(rows, 2) +
          fmt::format("  on surfaces that the search did not use; {} studies were computed\n",
                      found.studies) +
@@ -84,9 +87,7 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
 }
 
 void run(const std::string& file, Session& session) {
-  session.require_one_process("design");
-  require(!session.has_output(), "--output", session.output().string(),
-          "is not an option of design, which writes no file; use --json and redirect");
+  session.require_no_output("design");
   const DesignProblem problem = read_design_problem(file);
   const Design found = design(problem, session.progress());
   if (found.interrupted) throw Interrupted("design: interrupted");

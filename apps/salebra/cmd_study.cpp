@@ -344,6 +344,25 @@ std::string details(const StudyResult& result) {
          law_verdict(result) + "\n" + ensemble_warnings(result);
 }
 
+/// Throws InvalidInput, before any work, for what has no sensitivities.
+void require_sensitivities(const StudyArguments& arguments, const StudyConfiguration& configuration,
+                           const Tolerances& tolerances) {
+  for (const auto& [given, option] : {std::pair(arguments.dry_run.dry_run, "--dry-run"),
+                                      {arguments.shard.has_value(), "--shard"},
+                                      {arguments.shard_seconds.has_value(), "--shard-seconds"}})
+    require_that(
+        !given, "--sensitivity",
+        fmt::format("given together with {}, which prints no results; leave one out", option));
+  require_that(!configuration.adhesion, "--sensitivity",
+               "known for contacts without adhesion only; leave it or the adhesion out");
+  for (const auto& [parameter, tolerance] : tolerances) {
+    const bool always =
+        parameter == StudyParameter::rms_height || parameter == StudyParameter::pressure;
+    require(always || !std::isnan(value_of(configuration, parameter)), "--tolerance",
+            name_of(parameter), "has no value in this study");
+  }
+}
+
 void run_one(const StudyArguments& arguments, Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
                                       {arguments.shard.has_value(), "--shard"},
@@ -356,6 +375,7 @@ void run_one(const StudyArguments& arguments, Session& session) {
                "needs the sensitivities; add --sensitivity");
   StudyConfiguration configuration;
   collectively(session.communicator(), [&] { configuration = arguments.study(); });
+  if (arguments.sensitivity) require_sensitivities(arguments, configuration, tolerances);
   run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
     const std::vector<StudyResult> directions = result.in_directions();
     const StudySolution answer = solution_of(result);
@@ -409,6 +429,7 @@ void run_files(StudyArguments arguments, const std::vector<std::string>& files, 
                                    {arguments.shard.has_value(), "--shard"},
                                    {arguments.shard_seconds.has_value(), "--shard-seconds"},
                                    {arguments.merge, "--merge"},
+                                   {arguments.sensitivity, "--sensitivity"},
                                    {arguments.dry_run.dry_run, "--dry-run"}});
   arguments.surface.file = files.front();
   const StudyConfiguration configuration = arguments.study();
@@ -471,7 +492,8 @@ void add_study_command(Program& program) {
                    "also print all models, how the law bends and how the mean converged");
   command.add_flag("--sensitivity", arguments->sensitivity,
                    "also compute how the results respond to the parameters and to each octave of "
-                   "wavelengths: d ln result/d ln parameter. Takes about twenty times as long");
+                   "wavelengths: d ln result/d ln parameter. Takes about twenty times as long; "
+                   "the answer has them, the file of --output has not");
   command
       .add_option("--tolerance", arguments->tolerances,
                   "with --sensitivity: tolerances of parameters, such as rms_height=10%; prints "

@@ -14,8 +14,7 @@ namespace salebra::cli {
 namespace {
 
 void run(Session& session) {
-  require(!session.has_output(), "--output", session.output().string(),
-          "is not an option of verify, which writes no file; use --json and redirect");
+  session.require_no_output("verify");
   const auto checks = verify_installation(session.progress());
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};

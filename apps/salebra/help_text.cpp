@@ -51,8 +51,8 @@ constexpr std::array descriptions{
         "range of forces. Judges the design on surfaces that the search did not use, and "
         "says what binds and what hardly matters. The exit status is 1 if the target is "
         "not met; the nearest design is printed.\n\nFILE:\n  study = \"study.toml\"\n  "
-        "[target]\n  output = \"damping_constant\"\n  value = \"10 N s/m\"\n  tolerance = "
-        "\"20%\"\n  force = [\"5N\", \"50N\"]\n  [free]\n  rms_height = [\"50nm\", "
+        "[target]\n  output = \"damping_constant\"\n  value = \"10N s/m\"\n  tolerance = "
+        "\"20%\"\n  force = [\"17N\", \"23N\"]\n  [free]\n  rms_height = [\"100nm\", "
         "\"1um\"]\n  normal_amplitude = [\"1nm\", \"20nm\"]\n\nNext: salebra study "
         "--sensitivity shows which parameters decide."},
     CommandHelp{"report", start, "",

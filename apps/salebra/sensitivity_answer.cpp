@@ -38,6 +38,7 @@ std::string with_interval(const EnsembleMean& slope) {
 Json sensitivity_json(const StudySensitivity& found) {
   Json json = Json::object();
   json["pressure"] = found.pressures;
+  json["left_out"] = found.left_out;
   for (const ParameterSensitivity& one : found.parameters)
     for (const OutputSensitivity& output : one.outputs) {
       Json slopes = to_json(output.at_pressures);
@@ -56,11 +57,7 @@ Json sensitivity_json(const StudySensitivity& found) {
 
 std::string sensitivity_text(const StudySensitivity& found) {
   const std::size_t middle = found.pressures.size() / 2;
-  std::vector<std::string> outputs;
-  for (const ParameterSensitivity& one : found.parameters)
-    for (const OutputSensitivity& output : one.outputs)
-      if (std::ranges::find(outputs, output.output) == outputs.end())
-        outputs.push_back(output.output);
+  std::vector<std::string> outputs = found.outputs();
   // The work per cycle responds as the damping constant does, but for the amplitude.
   if (outputs.size() > 1 && outputs.back() == "damping_constant") outputs.erase(outputs.end() - 2);
   std::vector<std::vector<std::string>> rows{{"parameter"}};
@@ -105,12 +102,7 @@ std::string add_tolerances(Json& json, const StudySensitivity& found,
                            const Tolerances& tolerances) {
   std::vector<std::vector<std::string>> rows{{"result", "within"}};
   const std::size_t middle = found.pressures.size() / 2;
-  std::vector<std::string> outputs;
-  for (const ParameterSensitivity& one : found.parameters)
-    for (const OutputSensitivity& output : one.outputs)
-      if (std::ranges::find(outputs, output.output) == outputs.end())
-        outputs.push_back(output.output);
-  for (const std::string& output : outputs) {
+  for (const std::string& output : found.outputs()) {
     std::vector<double> factors;
     for (std::size_t k = 0; k < found.pressures.size(); ++k)
       factors.push_back(found.factor_of(tolerances, output, k));
@@ -121,8 +113,10 @@ std::string add_tolerances(Json& json, const StudySensitivity& found,
                                               100 * (factor - 1))});
     json["tolerance"][output] = factors;
   }
-  return fmt::format("With these tolerances, at {}, to first order\n",
-                     format_quantity(found.pressures[middle], Dimension::pressure, 3)) +
+  return fmt::format(
+             "With these tolerances, at {}, to first order and without the errors of the "
+             "sensitivities\n",
+             format_quantity(found.pressures[middle], Dimension::pressure, 3)) +
          to_table(rows, 2, true);
 }
 

@@ -146,6 +146,12 @@ WriteOptions Session::write_options() const {
   return {.overwrite = options_.overwrite};
 }
 
+void Session::require_no_output(std::string_view command) const {
+  require(!has_output(), "--output", output().string(),
+          fmt::format("is not an option of {}, which writes no file; use --json and redirect",
+                      command));
+}
+
 void Session::require_result_name() const {
   const std::string extension = output().extension().string();
   require(!has_output() || extension == ".h5" || extension == ".hdf5", "--output",

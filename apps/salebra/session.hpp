@@ -69,6 +69,8 @@ class Session {
   bool stopped() const;
   /// Throws InvalidInput if the file of --output must not be written. All processes must call.
   void require_free_output() const;
+  /// Throws InvalidInput if --output was given to a command that writes no file.
+  void require_no_output(std::string_view command) const;
   /// Throws InvalidInput if --output was given and does not name an HDF5 file.
   void require_result_name() const;
   /// Registers the files that options name. After it, reads() and writes() add other files of the
