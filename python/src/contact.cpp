@@ -148,8 +148,7 @@ the period of the surface do not exist: a layer much thicker than the period is 
           nb::arg("normal") = std::array<double, 3>{0, 0, 1},
           nb::arg("x") = std::array<double, 3>{1, 0, 0},
           "A half-space of a cubic crystal; stiffnesses in Pa, and the outward normal of the "
-          "surface "
-          "and its x axis as directions of the crystal.")
+          "surface and its x axis as directions of the crystal.")
       .def_static(
           "tabulated",
           [](std::vector<double> wavenumber, std::vector<double> normal,

@@ -436,6 +436,7 @@ progress : bool or callable
             return CurveOf<EnsembleMean>{"pressure", self.pressures, found->at_pressures, output};
           },
           nb::arg("parameter"), nb::arg("output"), "d ln output/d ln parameter over the pressure.")
+      .def("outputs", &StudySensitivity::outputs, "Names of the results, each once.")
       .def(
           "sentence",
           [](const StudySensitivity& self, const std::string& output, std::size_t index) {

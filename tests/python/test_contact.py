@@ -298,3 +298,31 @@ def test_layers_graded_and_anisotropic_bodies_press_and_stick() -> None:
         salebra.press(surface, layer, pressure=1e6, boundary="free")
     with pytest.raises(salebra.InvalidInput, match="tangential response"):
         salebra.contact.stick_stiffness(state.contact_pressure > 0, surface.grid, table)
+
+
+def test_crystals_respond_by_their_direction() -> None:
+    surface = generated()
+    steel = salebra.ElasticBody(210e9, 0.3)
+    lame, shear = 210e9 * 0.3 / (1.3 * 0.4), 210e9 / 2.6
+    isotropic = salebra.Body.cubic(lame + 2 * shear, lame, shear)
+    half_space = salebra.Body.half_space(steel)
+    of_crystal, expected = isotropic.compliance(1e6, 0.7), half_space.compliance(1e6)
+    assert np.isnan(of_crystal["coupling"])
+    for name in ("normal", "in_plane", "across", "mixed"):
+        assert of_crystal[name] == pytest.approx(expected[name], rel=1e-10, abs=1e-26)
+    # Silicon: a plane (001) is alike every quarter turn; (110) is not.
+    c11, c12, c44 = 165.7e9, 63.9e9, 79.6e9
+    silicon = salebra.Body.cubic(c11, c12, c44)
+    cut = salebra.Body.cubic(c11, c12, c44, normal=(1, 1, 0), x=(0, 0, 1))
+    normal = [[body.compliance(1e6, angle)["normal"] for angle in (0.3, 0.3 + np.pi / 2)] for body in (silicon, cut)]
+    assert normal[0][0] == pytest.approx(normal[0][1], rel=1e-10)
+    assert abs(normal[1][0] / normal[1][1] - 1) > 1e-3
+    stiffness = np.zeros((6, 6))
+    stiffness[:3, :3] = c12 + (c11 - c12) * np.eye(3)
+    stiffness[3:, 3:] = c44 * np.eye(3)
+    same = salebra.Body.anisotropic(stiffness, normal=(1, 1, 0), x=(0, 0, 1))
+    gaps = [salebra.press(surface, body, pressure=1e8).mean_gap for body in (silicon, cut, same)]
+    assert gaps[1] == gaps[2] != gaps[0]
+    stiffness[0, 1] *= 2
+    with pytest.raises(salebra.InvalidInput, match="stiffness"):
+        salebra.Body.anisotropic(stiffness)

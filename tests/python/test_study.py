@@ -279,3 +279,63 @@ def test_pictures_of_a_study_name_its_models_and_draw_its_answer() -> None:
         assert list(axes.get_lines()[-1].get_ydata()) == pytest.approx(
             [mean.mean for mean in answer.damping_constant_without_slip], nan_ok=True
         )
+
+
+def test_sensitivities_and_designs(tmp_path: Path) -> None:
+    study = tmp_path / "study.toml"
+    study.write_text(
+        """
+[surface]
+points = 32
+size_x = "64um"
+hurst = 0.7
+rolloff = "10um"
+short_cutoff = "8um"
+rms_height = "100nm"
+seeds = [1, 2, 3]
+[material]
+contact_modulus = "3GPa"
+poisson = 0.3
+[contact]
+pressures = "8MPa:32MPa:4"
+[damping]
+normal_amplitude = "2nm"
+drag_velocity = "1um/s"
+frequency = "1kHz"
+"""
+    )
+    found = salebra.study_sensitivity(salebra.read_study_configuration(study), waves=False)
+    outputs = found.outputs()
+    assert outputs[0] == "mean_gap" and "damping_constant" in outputs
+    slope = found.find("rms_height", "normal_stiffness")
+    assert np.all(slope.low <= slope.mean) and np.all(slope.mean < 0)
+    # Twice the moduli and twice the pressures give twice the stiffness.
+    both = slope.mean * 0 + found.find("contact_modulus", "normal_stiffness").mean
+    assert both + found.find("pressure", "normal_stiffness").mean == pytest.approx(1, abs=0.2)
+    with pytest.raises(salebra.InvalidInput, match="colour"):
+        found.find("colour", "mean_gap")
+
+    def design(value: str) -> salebra.Design:
+        problem = tmp_path / "problem.toml"
+        problem.write_text(
+            f"""
+study = "study.toml"
+[target]
+output = "normal_stiffness"
+value = "{value}"
+tolerance = "50%"
+force = ["60mN", "80mN"]
+[free]
+rms_height = ["50nm", "400nm"]
+"""
+        )
+        return salebra.design(problem)
+
+    far = design("1TN/m")
+    assert not far.met and far.parameters[0].at_limit
+    nearest = far.points[1].output.mean
+    near = design(f"{nearest / 2:.3g}N/m")
+    assert near.met and 50e-9 < near.parameters[0].value < 400e-9
+    again = salebra.run_study(near.study)
+    assert again.pressures[0] == pytest.approx(60e-3 / 64e-6**2)
+    assert again.curve("normal_stiffness")[0].mean == pytest.approx(near.points[0].output.mean, rel=0.5)
