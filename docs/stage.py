@@ -29,7 +29,7 @@ MODULES = {
     "export": "laws as input of other programs",
     "report": "the results of a study as a page",
 }
-NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")
+NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law", "18_design")
 # The submodules of the Python package.
 TOPICS = {
     "surfaces": "surfaces and what is measured on them",
