@@ -200,6 +200,8 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
     loss.error = answer.results.front().error;
   }
   figures::Figure figure = figures::figure_of(cycle.path, loss);
+  figures::state_validity(figure, answer.assumptions,
+                          std::isfinite(answer.results.front().slip_work));
   figure.caption += setting_of(answer, "", arguments.assumptions.friction_coefficient);
   session.plot(figure);
 }
@@ -261,6 +263,8 @@ void lose(const DampingArguments& arguments, Session& session) {
     write_tables(session, "damping", object, {});
     if (!values.empty() && session.has_plot()) {
       figures::Figure figure = figures::figure_of(quantity, values, answer.results);
+      figures::state_validity(figure, answer.assumptions,
+                              std::isfinite(answer.results.front().slip_work));
       figure.caption += setting_of(answer, quantity, arguments.assumptions.friction_coefficient);
       session.plot(figure);
     } else if (!arguments.maps.given())

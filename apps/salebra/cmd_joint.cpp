@@ -308,10 +308,13 @@ void run(const JointArguments& arguments, Session& session) {
   take_numbers(found.losses, tables.front());
   if (session.has_plot()) {
     const detail::JointLoop loop = loop_of(arguments, found, session);
-    session.plot(figures::figure_of(found.losses, loop.displacement, loop.tangential_force,
-                                    found.state.force, *arguments.assumptions.friction_coefficient,
-                                    {values_of(tables.front(), "work_per_cycle_low"),
-                                     values_of(tables.front(), "work_per_cycle_high")}));
+    figures::Figure figure =
+        figures::figure_of(found.losses, loop.displacement, loop.tangential_force,
+                           found.state.force, *arguments.assumptions.friction_coefficient,
+                           {values_of(tables.front(), "work_per_cycle_low"),
+                            values_of(tables.front(), "work_per_cycle_high")});
+    figures::state_validity(figure, std::array{found.assumptions}, false);
+    session.plot(figure);
   }
   add_first_loading(answer, found.contact.first_loading);
   AssumptionReport{{found.assumptions}}.answer(session, answer);

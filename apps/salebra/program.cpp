@@ -236,6 +236,8 @@ Command& Program::add_command(const std::string& name, const std::string& what,
     add_quantity(command, "--figure-width", common->figure_width, Dimension::length,
                  "width of the printed picture, with texts of 7 points, such as 85mm or 170mm; "
                  "default the size of a screen");
+    command.add_flag("--no-caption", common->no_caption,
+                     "leaves the caption out of the picture, for a journal that sets it");
   }
   return command;
 }

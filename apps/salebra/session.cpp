@@ -208,7 +208,8 @@ Provenance Session::provenance() const {
 
 void Session::plot(const figures::Figure& figure) {
   if (has_plot() && communicator().is_root())
-    figures::write_plot(options_.plot, figure, write_options(), options_.figure_width);
+    figures::write_plot(options_.plot, figure, write_options(), options_.figure_width,
+                        !options_.no_caption);
 }
 
 Progress Session::progress() {

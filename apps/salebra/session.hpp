@@ -34,6 +34,7 @@ struct CommonOptions {
   std::string output;                  ///< file for the results; empty: none
   std::string plot;                    ///< picture to draw; empty: none
   std::optional<double> figure_width;  ///< of the picture, m; empty: the size of a screen
+  bool no_caption = false;             ///< the picture is without its caption
   int threads = 0;                     ///< 0: as many as the machine has
   std::string progress = "auto";
 };

@@ -28,12 +28,13 @@ _TURN = 7  # grey and wine only on request
 _MARKERS = ("o", "s", "^", "D", "v", "p", "x", "+", "*")
 _DASHES = {"dashed": "--", "dotted": ":", "points": "none"}
 _LINES = ((0, (1, 2)), (0, (6, 3)), (0, (6, 2, 1, 2)), (0, (4, 2, 1, 2, 1, 2)))
+_ACROSS = "#404040"
 _PALETTES = {"sequential": "viridis", "diverging": "RdBu_r", "grey": "gray_r"}
 _PREFIXED = PREFIXED | {"m/s", "J/m", "N/m²", "N/m^2"}
 _EDITABLE: Any = {"svg.fonttype": "none", "pdf.fonttype": 42}  # text remains text
 # A figure for a journal, whose width is given.
 _JOURNAL: Any = {"font.size": 7, "axes.titlesize": 7, "lines.linewidth": 1, "lines.markersize": 3, "axes.linewidth": 0.6}
-_PANEL, _PAGE = 0.079, 0.24  # narrowest panel and height of a page of a journal, m
+_PANEL, _PAGE, _NARROW = 0.079, 0.16, 0.12  # narrowest panel, height of a page and width of more than one column of a journal, m
 _PLACES: WeakKeyDictionary[Axes, Any] = WeakKeyDictionary()  # of axes of the user, without a legend below
 
 
@@ -57,7 +58,9 @@ def _text(markup: str) -> str:
 
 def _wrapped(markup: str, length: float, size: float) -> str:
     """Text in lines of a length, both in points."""
-    lines = textwrap.wrap(markup, max(16, int(length / (0.55 * size))), break_long_words=False, break_on_hyphens=False)
+    # A number stays with its unit, and a symbol with its value.
+    joined = re.sub(r"(?<=\d) (?=\S)|(?<==) | (?==)|(?<=N) (?=s/m)| (?=[^{}]*\})", "\u00a0", markup)
+    lines = textwrap.wrap(joined, max(16, int(length / (0.55 * size))), break_long_words=False, break_on_hyphens=False)
     return "\n".join(map(_text, lines))
 
 
@@ -84,9 +87,9 @@ def _prefixed(unit: str, value: float) -> tuple[str, float]:
     inverse = unit in ("1/m", "rad/m")
     if not (inverse or unit in _PREFIXED) or not 0 < value < math.inf:
         return unit, 1.0
-    thousands = math.floor(math.log10(value * (1 + 1e-9)) / 3)
-    power = min(max(-thousands if inverse else thousands, -5), 3)
-    prefix = ("f", "p", "n", "µ", "m", "", "k", "M", "G")[power + 5]
+    thousands = math.floor(math.log10(value * (1 + 5e-4)) / 3)
+    power = min(max(-thousands if inverse else thousands, -6), 3)
+    prefix = ("a", "f", "p", "n", "µ", "m", "", "k", "M", "G")[power + 6]
     return (f"{unit[:-1]}{prefix}m", 10.0 ** (3 * power)) if inverse else (prefix + unit, 10.0 ** (-3 * power))
 
 
@@ -104,9 +107,13 @@ def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
     formatter.unit = described.unit  # which results on the same axes have to share
     axis.set_major_formatter(formatter)
     if (main or axis).get_scale() == "log":
-        low, high = sorted((main or axis).get_view_interval())
-        few = math.floor(math.log10(high)) - math.ceil(math.log10(low)) < 1  # less than two powers of ten
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=many))
+        low, high = (end * factor * getattr(described, "factor", 1) for end in sorted((main or axis).get_view_interval()))
+        few = high < 50 * low or math.floor(math.log10(high)) - math.ceil(math.log10(low)) < 1  # less than two powers of ten
+        named = [digit * 10.0**decade for decade in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for digit in (1, 2, 5)]
+        if few and sum(low <= value <= high for value in named) < 2:
+            axis.set_major_locator(MaxNLocator(4))
+        else:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=many))
         axis.set_minor_formatter(NullFormatter())
     else:
         axis.set_major_locator(MaxNLocator(min(many, 8), steps=[1, 2, 2.5, 5, 10]))
@@ -163,6 +170,12 @@ def _points(ax: Axes, direction: int) -> float:
     return float((ax.bbox.width, ax.bbox.height)[direction]) * 72 / ax.figure.dpi
 
 
+def _columns(labels: list[str], wide: float, size: float) -> int:
+    """Columns of a legend of this width, in points."""
+    longest = max(len(re.sub(r"\$.*?regular\{(.*?)\}\}\$", r"\1", label)) for label in labels)
+    return min(len(labels), max(1, int(wide / ((0.58 * longest + 4) * size))))
+
+
 def _legend(ax: Any) -> None:
     """Names the curves below the axes, outside the data. Without a layout the axes become smaller, so that it has room there."""
     handles, labels = ax.get_legend_handles_labels()
@@ -173,8 +186,7 @@ def _legend(ax: Any) -> None:
 
     size = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
     wide = _points(ax, 0)
-    longest = max(len(re.sub(r"\$.*?regular\{(.*?)\}\}\$", r"\1", label)) for label in labels)
-    columns = min(len(labels), max(1, int(wide / ((0.58 * longest + 4) * size))))
+    columns = _columns(labels, wide, size)
     labels = [textwrap.fill(label, max(20, int(wide / (0.55 * size)))) if "$" not in label else label for label in labels]
     title = ax.xaxis.label.get_fontsize() * (1.4 * ax.get_xlabel().count("\n") + 1.3)
     ticks = ax.xaxis.get_major_ticks()[0].label1.get_fontsize() * 1.2
@@ -191,9 +203,9 @@ def _legend(ax: Any) -> None:
         ax.set_in_layout(True)
 
 
-def _second(ax: Axes, panel: Any, fresh: bool) -> None:
+def _second(ax: Axes, panel: Any, fresh: bool, scales: Any) -> None:
     """A second scale along the top or the right. Results on the same axes keep it only if it holds for all of them."""
-    for way, second in (("x", panel.second_x), ("y", panel.second_y)):
+    for way, second in zip("xy", scales):
         name = f"{way} times {second.factor!r} {second.unit}" if second else ""
         for old in [child for child in ax.child_axes if str(child.get_label()).startswith(f"{way} times ") and child.get_label() != name]:
             old.remove()
@@ -205,7 +217,7 @@ def _second(ax: Axes, panel: Any, fresh: bool) -> None:
             _scale(child.xaxis if way == "x" else child.yaxis, second, _points(ax, way == "y"), main)
 
 
-def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
+def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, scales: Any = None) -> None:
     """Draws a panel, on axes that may have one already. keywords: style of its map or first curve."""
     drawn = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData)]
     fresh = not drawn and not ax.collections
@@ -227,7 +239,9 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
         turn += curve.color < 0
         _curve(ax, curve, number, keywords if shown == 0 and not panel.image else {})
     for dashes, line in zip(_LINES * len(panel.lines), panel.lines):
-        (ax.axvline if line.vertical else ax.axhline)(line.at, color="#404040", linestyle=dashes, linewidth=0.8, label=_text(line.name) or "_")
+        along = panel.x if line.vertical else panel.y
+        seen = along.low is None or along.high is None or along.low <= line.at <= along.high
+        (ax.axvline if line.vertical else ax.axhline)(line.at, color=_ACROSS, linestyle=dashes, linewidth=0.8, label=seen and _text(line.name) or "_")
     for shade in panel.ranges:
         (ax.axvspan if shade.vertical else ax.axhspan)(shade.low, shade.high, color="#808080", alpha=0.15, lw=0, label=_text(shade.name) or "_")
     if fresh:
@@ -237,10 +251,11 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any]) -> None:
         ax.autoscale()
     _scale(ax.xaxis, panel.x, _points(ax, 0))
     _scale(ax.yaxis, panel.y, _points(ax, 1))
-    _second(ax, panel, fresh)
+    _second(ax, panel, fresh, scales or (panel.second_x, panel.second_y))
     if panel.title and fresh:
         ax.set_title(_wrapped(panel.title, _points(ax, 0), ax.title.get_fontsize()))
-    _legend(ax)
+    if legend:
+        _legend(ax)
 
 
 def _new(pyplot: bool) -> Figure:
@@ -275,39 +290,77 @@ def _plot_panel(figure: Any, ax: Axes | None, panel: int | str, keywords: dict[s
     return drawn
 
 
-def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True) -> Figure:
-    """Draws all panels in a new figure of matplotlib. width: of a figure for a journal, m."""
+def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, caption: bool = True) -> Figure:
+    """Draws all panels in a new figure of matplotlib. width: of a figure for a journal, m; one column has no room for details."""
     drawn = _new(pyplot)
     from matplotlib import rc_context, rcParams
 
     if width is not None and not 0.06 <= width <= 1:
         raise refusal("width", f"{width:g}", "must be >= 0.06 and <= 1 m")
-    count = len(figure.panels)
-    columns = min(count, figure.columns or math.ceil(math.sqrt(count)))
+    panels, text = list(figure.panels), figure.caption if caption else ""
+    if width and width < _NARROW:
+        panels = [panel for panel in panels if not panel.detail]
+        text = text.split(f" ({'abcdefghijklmnopqrstuvwxyz'[len(panels)]}) ")[0]
+    count = len(panels)
+    columns = wanted = min(count, figure.columns or math.ceil(math.sqrt(len(figure.panels))))
     if width:
-        columns = min(columns, max(1, int(width / _PANEL)))
+        columns = min(wanted, max(1, int(width / _PANEL)))
+        if count > 5 * columns:
+            columns = min(wanted, 2 * columns)
     with rc_context(_JOURNAL) if width else nullcontext():
         across = width / 0.0254 if width else rcParams["figure.figsize"][0] * math.sqrt(columns)
         rows = math.ceil(count / columns)
         # Many rows are lower, so that they come closer to the height of a page.
-        high = max(0.54 * across / columns * rows, min(0.78 * across / columns * rows, _PAGE / 0.0254 if width else math.inf))
+        high = max(max(0.45 * across / columns, 1.4) * rows, min(0.78 * across / columns * rows, _PAGE / 0.0254 if width else math.inf))
         drawn.set_size_inches(across, high)
         if figure.title:
             drawn.suptitle(_wrapped(figure.title, 72 * across, rcParams["font.size"] * 1.2))
         grid = drawn.add_gridspec(rows, 2 * columns)
-        for k, panel in enumerate(figure.panels):
+        for k, panel in enumerate(panels):
             row, column = divmod(k, columns)
+            top = panels[0].second_x  # in one column the scale at the top is that of the panels below, too
+            repeated = columns == 1 and k > 0 and top and panel.second_x and panel.second_x.label == top.label
             left = 2 * column + max(0, (row + 1) * columns - count)  # a last row that is not full is in the middle
-            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {})
-        # Room for the legends below the panels.
+            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {}, not figure.one_legend, (None if repeated else panel.second_x, panel.second_y))
+        axes = [ax for ax in drawn.axes if ax.get_subplotspec()]
+        for upper, panel, lower in zip(axes, panels, panels[1:] if columns == 1 else []):
+            ends = [(one.x.label, one.x.low, one.x.high) for one in (panel, lower)]
+            if ends[0] == ends[1] and not (panel.image or lower.image or upper.get_legend() or lower.second_x and lower.second_x.unit):
+                upper.tick_params(labelbottom=False)  # the panel below has the same axis
+                upper.set_xlabel("")
+        entries: dict[str, Any] = {}
+        for ax, panel in zip(axes, panels if figure.one_legend else []):
+            across_panel = [_text(line.name) for line in panel.lines]
+            for handle, name in zip(*ax.get_legend_handles_labels()):
+                if name in across_panel and getattr(handle, "get_color", str)() == _ACROSS:
+                    name += f" {panel.title.split()[0]}"  # lines of several panels look alike
+                entries.setdefault(name, handle)
+        # Room for what is below the panels.
         drawn.draw_without_rendering()
-        legends = [ax.get_legend() for ax in drawn.axes if ax.get_subplotspec()]
+        size = rcParams["font.size"]
+        legends = [ax.get_legend() for ax in axes]
         tall = [legend.get_window_extent().height / drawn.dpi if legend else 0.0 for legend in legends]
-        drawn.set_size_inches(across, high + sum(max(tall[row : row + columns]) for row in range(0, count, columns)))
+        high += sum(max(tall[row : row + columns]) for row in range(0, count, columns))
+        below = 0.0
+        words = _wrapped(text, 72 * across - 2 * size, size) if text else ""
+        if words:
+            below = (1.3 * words.count("\n") + 2.3) * size / 72
+        rest = below
+        if entries:
+            in_row = _columns(list(entries), 72 * across, size)
+            below += (1.5 * math.ceil(len(entries) / in_row) + 0.5) * size / 72
+        high += below
+        drawn.set_size_inches(across, high)
+        if words:
+            drawn.text(0.5 * size / 72 / across, 0.5 * size / 72 / high, words, va="bottom", linespacing=1.15)
+        if entries:
+            drawn.legend(entries.values(), entries.keys(), loc="lower center", bbox_to_anchor=(0.5, rest / high), ncols=in_row, frameon=False, borderpad=0, borderaxespad=0)
+        if below:
+            drawn.get_layout_engine().set(rect=(0, below / high, 1, 1 - below / high))
     return drawn
 
 
-def save_figure(figure: Any, file: Any, width: float | None = None, overwrite: bool = False) -> None:
+def save_figure(figure: Any, file: Any, width: float | None = None, overwrite: bool = False, caption: bool = True) -> None:
     """Writes a picture, whose suffix is that of its format, or the numbers as .json."""
     path = Path(file)
     if path.exists() and not overwrite:
@@ -320,7 +373,7 @@ def save_figure(figure: Any, file: Any, width: float | None = None, overwrite: b
     from matplotlib import rc_context
 
     with rc_context(_EDITABLE):
-        plot_figure(figure, width, False).savefig(path, dpi=300)
+        plot_figure(figure, width, False, caption).savefig(path, dpi=300)
 
 
 def svg(figure: Any) -> str:

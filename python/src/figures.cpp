@@ -171,19 +171,21 @@ void bind_data(nb::module_& m) {
       .def("json", &figure_json, "The figure as JSON, as the program writes it.")
       .def(
           "plot",
-          [ask](nb::handle_t<Figure> self, std::optional<double> width) {
-            return ask("plot_figure", self, width);
+          [ask](nb::handle_t<Figure> self, std::optional<double> width, bool caption) {
+            return ask("plot_figure", self, width, true, caption);
           },
-          nb::arg("width") = nb::none(),
-          nb::sig("def plot(self, width: float | None = None) -> matplotlib.figure.Figure"),
-          "Draws all panels with matplotlib. width: of a figure for a journal, such as \"85mm\".")
+          nb::arg("width") = nb::none(), nb::kw_only(), nb::arg("caption") = true,
+          nb::sig("def plot(self, width: float | None = None, *, caption: bool = True) -> "
+                  "matplotlib.figure.Figure"),
+          "Draws all panels with matplotlib. width: of a figure for a journal, such as \"85mm\". "
+          "caption=False: without the caption, which the journal sets.")
       .def(
           "save",
           [ask](nb::handle_t<Figure> self, const std::filesystem::path& file,
-                std::optional<double> width,
-                bool overwrite) { ask("save_figure", self, file, width, overwrite); },
+                std::optional<double> width, bool overwrite,
+                bool caption) { ask("save_figure", self, file, width, overwrite, caption); },
           nb::arg("file"), nb::arg("width") = nb::none(), nb::kw_only(),
-          nb::arg("overwrite") = false,
+          nb::arg("overwrite") = false, nb::arg("caption") = true,
           "Writes a picture, .svg, .pdf or .png, with text as text, or the numbers, .json.");
 }
 

@@ -10,15 +10,27 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/analysis/damping.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/realisation.hpp>
 
+#include "display_axis.hpp"
 #include "results/columns.hpp"
 #include "results/describe.hpp"
 
 namespace salebra::figures {
+
+namespace {
+
+std::string unit_of(Dimension dimension) {
+  const std::string unit(si_unit(dimension));
+  return unit == "1" ? "" : unit;
+}
+
+}  // namespace
 
 Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
   Quantity quantity = find_quantity(name);
@@ -49,12 +61,11 @@ Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
   if (const auto term = std::ranges::find(terms, name, [](const auto& one) { return one.first; });
       label.empty() && term != terms.end())
     label = term->second;
-  const std::string unit(si_unit(quantity.dimension));
   return {.quantity = std::string(name),
           .label = !label.empty()
                        ? std::string(label)
                        : plain_text(quantity.long_name.empty() ? name : quantity.long_name),
-          .unit = unit == "1" ? "" : unit,
+          .unit = unit_of(quantity.dimension),
           .logarithmic = logarithmic};
 }
 
@@ -93,26 +104,54 @@ std::string motion_text(const Motion& motion, std::string_view varied) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string value_text(double value, const std::string& in) {
+  if (std::isnan(value)) return "n/a";
+  const auto [unit, factor] = prefixed(in, std::abs(value));
+  return fmt::format("{:.3g}{}{}", value * factor, unit.empty() ? "" : " ", unit);
+}
+
 std::string interval_text(double value, double low, double high, Dimension dimension) {
-  const std::string text = format_quantity(value, dimension, 3);
+  const std::string text = value_text(value, unit_of(dimension));
   if (!std::isfinite(low) || !std::isfinite(high)) return text;
-  // A limit with the unit of the value is written without it.
-  const auto unit_of = [](const std::string& words) {
-    return words.substr(std::min(words.find(' '), words.size()));
-  };
-  const std::string unit = unit_of(text);
-  const auto limit = [&](double number) {
-    const std::string words = format_quantity(number, dimension, 3);
-    return unit_of(words) == unit ? words.substr(0, words.size() - unit.size()) : words;
-  };
-  return fmt::format("{} ({} … {})", text, limit(low), limit(high));
+  const double factor = prefixed(unit_of(dimension), std::abs(value)).second;
+  return fmt::format("{} ({:.3g} … {:.3g})", text, low * factor, high * factor);
 }
 
 std::string error_text(double value, double error, Dimension dimension) {
-  const std::string text = format_quantity(value, dimension, 3);
+  const std::string text = value_text(value, unit_of(dimension));
   if (!std::isfinite(error) || !std::isfinite(value)) return text;
-  if (error >= std::abs(value)) return "below its error of " + format_quantity(error, dimension, 2);
+  if (error >= std::abs(value))
+    return "below its error of " + value_text(error, unit_of(dimension));
   return fmt::format("{} ± {:.2g} %", text, 100 * error / std::abs(value));
+}
+
+std::string validity_text(std::span<const AssumptionVerdict> verdicts) {
+  const Validity validity = validity_of(verdicts);
+  if (validity == Validity::valid || validity == Validity::not_checked) return "";
+  const AssumptionVerdict& worst = verdicts.front();
+  const auto known = std::ranges::find(assumption_names(), worst.name, &AssumptionName::name);
+  // "γ = µF/v: Coulomb friction, not a damper; at all loads" gives the reason in its middle.
+  const std::string& here = worst.here;
+  const std::string reason(
+      known != assumption_names().end()
+          ? std::string(known->meaning)
+          : here.substr(here.find(": ") + 2, here.find(';') - here.find(": ") - 2));
+  return fmt::format("{}: {}", name_of(validity), reason);
+}
+
+void state_validity(Figure& figure, std::span<const Assumptions> cases, bool slip_followed) {
+  if (cases.empty()) return;
+  const std::string text = validity_text(verdicts_of(cases, slip_followed));
+  if (text.empty()) return;
+  for (Panel& panel : figure.panels)
+    if (std::ranges::any_of(std::array{"γ = ", "Γ = ", "W = "}, [&](const char* headline) {
+          return panel.title.find(headline) != std::string::npos;
+        }))
+      panel.title += " (" + text + ")";
+}
+
+std::string poor_law(const LawDescription& law) {
+  return law.fair ? "" : " (poor law: do not use Eq. (16))";
 }
 
 std::string title_of(std::string_view name) {
@@ -143,8 +182,8 @@ std::vector<double> cells(Index count, double step) {
 Panel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                 const Axis& scale) {
   return {.title = title,
-          .x = {.label = "x", .unit = "m"},
-          .y = {.label = "y", .unit = "m"},
+          .x = {.label = "x", .unit = "m", .prefix_of = grid.lx},
+          .y = {.label = "y", .unit = "m", .prefix_of = grid.lx},
           .image = Image{.x = cells(grid.nx, grid.dx()),
                          .y = cells(grid.ny, grid.dy()),
                          .values = values,

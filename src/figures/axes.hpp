@@ -4,9 +4,15 @@
 #include <salebra/base/units.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace salebra {
+struct AssumptionVerdict;
+struct LawDescription;
+}  // namespace salebra
 
 namespace salebra::figures {
 
@@ -14,11 +20,18 @@ namespace salebra::figures {
 Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_view label = {});
 /// "u_z = 10 nm, v = 1 mm/s, ω/2π = 20 kHz"; without the quantity of that name and unknown numbers.
 std::string motion_text(const Motion& motion, std::string_view varied = {});
-/// "25.3 nm (24.1 nm … 26.5 nm)"; without the limits where they are unknown.
+/// "25.3 nm", in a unit that may get a prefix.
+std::string value_text(double value, const std::string& unit);
+/// "25.3 nm (24.1 … 26.5)"; without the limits where they are unknown.
 std::string interval_text(double value, double low, double high, Dimension dimension);
 /// "25.3 nm ± 2 %"; without the error where it is unknown, and without the value where it is no larger
 /// than its error.
 std::string error_text(double value, double error, Dimension dimension);
+/// "not valid: plasticity", the validity that these verdicts give and what decides it; empty if all
+/// assumptions that were checked hold.
+std::string validity_text(std::span<const AssumptionVerdict> verdicts);
+/// " (poor law: do not use Eq. (16))" for an exponential law that describes its curve poorly.
+std::string poor_law(const LawDescription& law);
 /// The title of the contact model of this name; any other name as it is.
 std::string title_of(std::string_view name);
 /// Whether positive values span more than 1.5 decades.

@@ -40,8 +40,7 @@ double gap_of(const ExponentialFit& fit, double pressure) {
 ShadedRange window_of(const ExponentialFit& fit) {
   return {.low = gap_of(fit, fit.window.pressure_max),
           .high = gap_of(fit, fit.window.pressure_min),
-          .vertical = true,
-          .name = "window of the fit"};
+          .vertical = true};
 }
 
 std::string decay_length_text(const ExponentialFit& fit) {
@@ -49,20 +48,36 @@ std::string decay_length_text(const ExponentialFit& fit) {
                                              fit.decay_length_high, Dimension::length);
 }
 
-void add_fit(Panel& panel, const ExponentialFit& fit) {
+/// What the test of the law says if the law is poor, as the program does; a curve with too few points
+/// in the window says nothing.
+std::string verdict_of(const ForceCurve& curve, const ExponentialFit& fit) {
+  if (fit.window.points < 4) return "";
+  try {
+    const ExponentialTest test = test_exponential(curve, fit.window);
+    return poor_law(
+        describe_law(fit.decay_length, test.decay_length_at_min_gap, test.decay_length_at_max_gap));
+  } catch (const InvalidInput&) {
+    return "";  // a fit to another curve
+  }
+}
+
+void add_fit(Panel& panel, const ForceCurve& curve, const ExponentialFit& fit) {
   const double low = fit.window.pressure_min, high = fit.window.pressure_max;
-  panel.title = decay_length_text(fit);
+  panel.title = decay_length_text(fit) + verdict_of(curve, fit);
+  panel.x.prefix_of = fit.decay_length;
   panel.curves.push_back({.name = "p_0 e^{−ū/l}",
                           .quantity = "pressure",
                           .x = {gap_of(fit, high), gap_of(fit, low)},
                           .y = {high, low},
                           .style = Style::dashed});
   panel.ranges.push_back(window_of(fit));
+  panel.ranges.back().name = "window of the fit";
 }
 
 /// −dū/d ln p between neighbouring loads, and l of the fit: equal for an exponential law.
 Panel local_panel(const LocalDecayLength& local, const std::optional<ExponentialFit>& fit) {
-  Panel panel{.x = axis_of("mean_gap", false, "mean gap ū"),
+  Panel panel{.caption = "Local decay length between neighbouring loads.",
+              .x = axis_of("mean_gap", false, "mean gap ū"),
               .y = axis_of("local_decay_length", false, "decay length −dū/d ln p")};
   panel.curves.push_back(
       {.x = local.mean_gap, .y = local.decay_length, .style = Style::line_and_points});
@@ -87,7 +102,8 @@ Panel deviation_panel(const ForceCurve& curve, const ExponentialFit& fit) {
                                                  std::exp(-sample.mean_gap / fit.decay_length)) -
                               1));
   }
-  return {.x = axis_of("mean_gap", false, "mean gap ū"),
+  return {.caption = "Deviation of the pressure from the law.",
+          .x = axis_of("mean_gap", false, "mean gap ū"),
           .y = {.label = "deviation from the fit (%)"},
           .curves = {points},
           .lines = {{.at = 0, .name = "the fit"}},
@@ -103,11 +119,8 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
       given && std::isfinite(given->decay_length) ? given : std::nullopt;
   Figure figure{
       .kind = "curve",
-      .caption =
-          "Nominal pressure, contact area and stiffness of a contact" +
-          std::string(fit ? ", with the exponential law fitted in the shaded window, the local "
-                            "decay length and the deviation of the pressure from the law."
-                          : ".")};
+      .caption = fit ? "A force curve and the exponential law fitted in the shaded window."
+                     : "A force curve."};
   const Axis pressure = axis_of("pressure", true, "nominal pressure p");
   Curve gaps = points_of(curve, curve.model.empty() ? "curve" : title_of(curve.model),
                          &ForceSample::mean_gap, &ForceSample::pressure);
@@ -118,24 +131,36 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
           "samples, none of which converged with a mean gap and a pressure, or with an indentation "
           "and a force: there is nothing to draw");
   Panel& law = figure.panels.emplace_back();
+  law.caption = indented ? "Force over indentation." : "Pressure over mean gap.";
   law.x = indented ? axis_of("indentation", false, "indentation δ")
                    : axis_of("mean_gap", false, "mean gap ū");
   law.y = indented ? axis_of("force", true, "normal force F") : pressure;
   // A logarithmic axis cannot show tension.
   law.y.logarithmic = std::ranges::none_of(gaps.y, [](double value) { return value < 0; });
   law.curves.push_back(std::move(gaps));
-  if (fit) add_fit(law, *fit);
+  if (fit) {
+    add_fit(law, curve, *fit);
+    figure.panels.push_back(local_panel(local_decay_length(curve), fit));
+    figure.panels.push_back(deviation_panel(curve, *fit));
+  }
 
   Curve areas = points_of(curve, "", &ForceSample::pressure, &ForceSample::contact_area_fraction);
   if (!areas.x.empty()) {
-    figure.panels.push_back(
-        {.x = pressure, .y = axis_of("contact_area_fraction", true, "contact area A/A_0")});
+    figure.panels.push_back({.caption = "Contact area.",
+                             .x = pressure,
+                             .y = axis_of("contact_area_fraction", true, "contact area A/A_0"),
+                             .detail = fit.has_value()});
     figure.panels.back().curves.push_back(std::move(areas));
   }
-  Panel stiffness{.x = axis_of("force", true, "normal force F"),
+  Panel stiffness{.caption = "Stiffness.",
+                  .x = axis_of("force", true, "normal force F"),
                   .y = {.label = "stiffness", .unit = "N/m", .logarithmic = true},
-                  .legend = Legend::top_left};
-  Panel ratio{.x = pressure, .y = {.label = "stiffness ratio K_t/K"}};
+                  .legend = Legend::top_left,
+                  .detail = fit.has_value()};
+  Panel ratio{.caption = "Tangential over normal stiffness.",
+              .x = pressure,
+              .y = {.label = "stiffness ratio K_t/K"},
+              .detail = fit.has_value()};
   const auto add = [&](const ForceCurve& one, const std::string& name, const char* quantity,
                        double ForceSample::*member) {
     Curve points = points_of(one, name, &ForceSample::force, member);
@@ -159,10 +184,6 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
   }
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
   if (!ratio.curves.empty()) figure.panels.push_back(std::move(ratio));
-  if (fit) {
-    figure.panels.push_back(local_panel(local_decay_length(curve), fit));
-    figure.panels.push_back(deviation_panel(curve, *fit));
-  }
   return figure;
 }
 
@@ -196,10 +217,10 @@ Figure figure_of(const Grid2D& grid, const NormalContactState& state) {
                   format_quantity(state.mean_pressure, Dimension::pressure, 3));
   const std::string gap = "mean gap " + format_quantity(state.mean_gap, Dimension::length, 3);
   return {.kind = "contact",
-          .caption =
-              "Contact pressure on the spots, and gap beside them, both white elsewhere, at the "
-              "nominal pressure " +
-              format_quantity(state.mean_pressure, Dimension::pressure, 3) + ".",
+          .caption = "A contact at the nominal pressure " +
+                     format_quantity(state.mean_pressure, Dimension::pressure, 3) +
+                     ". (a) Pressure on the contact spots. (b) Gap beside them. Both are white "
+                     "elsewhere.",
           .panels = {map_panel(grid, touches.any() ? pressure : state.contact_pressure, share,
                                axis_of("contact_pressure", false, "pressure")),
                      map_panel(grid, touches.all() ? state.gap : open, gap,

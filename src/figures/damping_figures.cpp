@@ -196,25 +196,34 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   Figure figure{
       .kind = "damping",
       .caption =
-          "Energy lost in a cycle and damping constant, with their numerical errors, and by the "
-          "closed form for small amplitudes, Eq. (12) or (15).",
-      .columns = 3};
+          "Loss of a motion with its numerical error (band, where it is known), and by the closed "
+          "form for small amplitudes, Eq. (12) or (15).",
+      .columns = 3,
+      .one_legend = true};
   figure.panels = {{.title = "Energy dissipated in a cycle",
+                    .caption = "Energy lost in a cycle.",
                     .x = x,
                     .y = axis_of("work_per_cycle"),
                     .legend = Legend::top_left},
-                   {.title = "Damping constant", .x = x, .y = axis_of("damping_constant")},
+                   {.title = "Damping constant",
+                    .caption = "Damping constant.",
+                    .x = x,
+                    .y = axis_of("damping_constant")},
                    {.title = "Error of the closed form without slip",
+                    .caption = "Deviation of the closed form from the loss without slip.",
                     .x = x,
                     .y = {.label = "closed form over loss − 1 (%)"}}};
   const std::size_t directions = results.size() / values.size();
   // The headline of the table: the damping constant at its last value.
   if (const DampingResult& last = results.back();
-      directions == 1 && is_quantity(quantity) && std::isfinite(last.damping_constant))
+      directions == 1 && std::isfinite(last.damping_constant)) {
     figure.panels[1].title =
         "γ = " +
         error_text(last.damping_constant, last.damping_constant_error(), Dimension::damping) +
-        " at " + format_quantity(values.back(), find_quantity(quantity).dimension, 3);
+        " at " + value_text(values.back(), x.unit);
+    figure.panels[1].y.prefix_of = last.damping_constant;
+    figure.panels[1].x.prefix_of = values.back();
+  }
   const std::string form = "closed form";
   // Points show where the values are; a fine series is a line.
   const Style style = values.size() > 30 ? Style::line : Style::line_and_points;
@@ -272,6 +281,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
         figure.panels[1], form, "",
         [](const DampingResult& one) { return one.small_amplitude_work * one.damping_per_work; },
         none);
+    if (directions == 1) figure.panels[2].curves.back().color = slips ? 2 : 1;
     for (const std::size_t panel : {0u, 1u})
       if (!figure.panels[panel].curves.empty())
         figure.panels[panel].curves.back().style = Style::dashed;

@@ -22,53 +22,74 @@ constexpr std::array<std::string_view, 14> scalable = {
 // Units of densities and wave numbers: the prefix belongs to the metre, so that it is inverted.
 constexpr std::array<std::string_view, 2> inverse = {"1/m", "rad/m"};
 
-/// The unit with the prefix that suits a value, and the factor to this unit.
-std::pair<std::string, double> prefixed(const std::string& unit, double value) {
-  constexpr std::array<std::string_view, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
-  const bool inverted = std::ranges::find(inverse, unit) != inverse.end();
-  if (!(value > 0) || (!inverted && std::ranges::find(scalable, unit) == scalable.end()))
-    return {unit, 1};
-  // The factor 1 + 1e-9 keeps rounding from giving a power of 1000 the next lower prefix.
-  const double thousands = std::floor(std::log10(value * (1 + 1e-9)) / 3);
-  const int power = static_cast<int>(std::clamp(inverted ? -thousands : thousands, -5.0, 3.0));
-  const std::string prefix(prefixes[static_cast<std::size_t>(power + 5)]);
-  return inverted
-             ? std::pair(unit.substr(0, unit.size() - 1) + prefix + "m", std::pow(10.0, 3 * power))
-             : std::pair(prefix + unit, std::pow(10.0, -3 * power));
-}
-
 std::string number(double value) { return fmt::format("{:g}", value); }
 
-// Gnuplot's list of tics for a logarithmic axis. Labels the decades and, if there are few decades,
-// also their 2nd and 5th multiples. The other multiples get small tics without label.
+/// The least step of 1, 2 or 5 times a power of ten that is not below this one.
+double round_step(double least) {
+  double step = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {2.0, 2.5, 2.0})
+    if (step < least) step *= factor;
+  return step;
+}
+
+// Gnuplot's list of tics for a logarithmic axis. Labels the decades; if there are few decades, also
+// their 2nd and 5th multiples; and if the axis has fewer than two of these, round numbers at equal
+// distances. The other multiples get small tics without label.
 void set_logarithmic_tics(DisplayAxis& axis, int labels) {
-  const double low = *axis.low, high = *axis.high;
-  const bool few = high - low < 1.7 || std::floor(high) - std::ceil(low) < 1;
-  const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / (labels - 1))));
+  const double low = *axis.low - 1e-9, high = *axis.high + 1e-9;
+  const int first = static_cast<int>(std::ceil(low)),
+            decades = static_cast<int>(std::floor(high)) - first + 1;
+  const bool few = high - low < 1.7 || decades < 2;
+  const int stride = std::clamp(static_cast<int>(std::ceil((high - low) / (labels - 1))), 1,
+                                std::max(1, decades - 1));
+  int labelled = 0;
   std::string& tics = axis.tics;
   axis.longest_tic = 0;
-  for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade) {
+  const auto add = [&](double at, const std::string& text) {
+    if (at < low || at > high) return;
+    labelled += !text.empty();
+    // The digits of a power are half as wide, and its base has two.
+    axis.longest_tic = std::max(axis.longest_tic, std::min<std::size_t>(text.size(), 5));
+    tics += fmt::format("{}'{}' {:.9g}{}", tics.empty() ? "(" : ",", text, at,
+                        text.empty() ? " 1" : "");
+  };
+  for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade)
     for (int digit = 1; digit <= 9; ++digit) {
-      const double at = decade + std::log10(digit);
-      if (at < low - 1e-9 || at > high + 1e-9) continue;
-      const bool labelled = digit == 1 ? decade % stride == 0 : few && (digit == 2 || digit == 5);
-      if (!labelled && digit > 1 && stride > 1) continue;
-      const double value = digit * std::pow(10.0, decade);
-      const std::string text =
-          !labelled                                   ? ""
-          : digit == 1 && (decade < -3 || decade > 4) ? fmt::format("10^{{{}}}", decade)
-          : decade < -3 || decade > 4                 ? fmt::format("{}×10^{{{}}}", digit, decade)
-                                                      : number(value);
-      // The digits of a power are half as wide, and its base has two.
-      axis.longest_tic = std::max(axis.longest_tic, std::min<std::size_t>(text.size(), 5));
-      tics +=
-          fmt::format("{}'{}' {:.9g}{}", tics.empty() ? "(" : ",", text, at, labelled ? "" : " 1");
+      const bool named =
+          digit == 1 ? (decade - first) % stride == 0 : few && (digit == 2 || digit == 5);
+      if (!named && digit > 1 && stride > 1) continue;
+      const bool power = decade < -3 || decade > 4;
+      add(decade + std::log10(digit), !named                ? ""
+                                      : power && digit == 1 ? fmt::format("10^{{{}}}", decade)
+                                      : power ? fmt::format("{}×10^{{{}}}", digit, decade)
+                                              : number(digit * std::pow(10.0, decade)));
     }
+  if (labelled < 2) {
+    const double least = std::pow(10, low), most = std::pow(10, high),
+                 step = round_step((most - least) / 4);
+    tics.clear();
+    for (double k = std::ceil(least / step); k * step <= most; ++k)
+      add(std::log10(k * step), number(k * step));
   }
   if (!tics.empty()) tics += ")";
 }
 
 }  // namespace
+
+std::pair<std::string, double> prefixed(const std::string& unit, double value) {
+  constexpr std::array<std::string_view, 10> prefixes = {"a", "f", "p", "n", "µ",
+                                                         "m", "",  "k", "M", "G"};
+  const bool inverted = std::ranges::find(inverse, unit) != inverse.end();
+  if (!(value > 0) || (!inverted && std::ranges::find(scalable, unit) == scalable.end()))
+    return {unit, 1};
+  // The factor keeps numbers that three digits round to a power of 1000 from the lower prefix.
+  const double thousands = std::floor(std::log10(value * (1 + 5e-4)) / 3);
+  const int power = static_cast<int>(std::clamp(inverted ? -thousands : thousands, -6.0, 3.0));
+  const std::string prefix(prefixes[static_cast<std::size_t>(power + 6)]);
+  return inverted
+             ? std::pair(unit.substr(0, unit.size() - 1) + prefix + "m", std::pow(10.0, 3 * power))
+             : std::pair(prefix + unit, std::pow(10.0, -3 * power));
+}
 
 double DisplayAxis::display(double value) const {
   const double shown = value * factor;
@@ -119,10 +140,7 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
 
 void set_linear_tics(DisplayAxis& axis, int labels) {
   if (axis.logarithmic || !axis.low || !axis.high || !(*axis.low < *axis.high)) return;
-  const double least = (*axis.high - *axis.low) / labels;
-  double step = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {2.0, 2.5, 2.0})
-    if (step < least) step *= factor;
+  const double step = round_step((*axis.high - *axis.low) / labels);
   axis.tics = fmt::format("{:.9g}", step);
   axis.longest_tic = 0;
   for (double k = std::ceil(*axis.low / step); k <= *axis.high / step; ++k)

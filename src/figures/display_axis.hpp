@@ -27,6 +27,9 @@ struct DisplayAxis {
   double display(double value) const;
 };
 
+/// The unit with the prefix that suits a value, and the factor to this unit.
+std::pair<std::string, double> prefixed(const std::string& unit, double value);
+
 /// The axis for these data. Throws InvalidInput for a logarithmic axis with a limit <= 0, or with
 /// data of which none is > 0. labels: the most tics with a label that have room.
 DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const double>>& data,

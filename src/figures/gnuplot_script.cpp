@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <regex>
 #include <salebra/base/error.hpp>
 #include <span>
+#include <utility>
 
 #include "display_axis.hpp"
 #include "plot_raster.hpp"
@@ -29,7 +32,8 @@ constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2
 struct Layout {
   double width = 520, frame_height = 303.6, font = 12;
 
-  double character() const { return 0.617 * font; }
+  double character() const { return 0.617 * font; }  ///< upper limit of the mean width
+  double mean_character() const { return 0.6 * font; }
   double line() const { return 1.5 * font; }
   /// About that of most panels.
   double frame_width() const { return width - 9.2 * font; }
@@ -39,7 +43,7 @@ struct Layout {
   int labels(bool across, bool square = false) const {
     const double wide = square ? std::min(frame_width(), frame_height) : frame_width();
     return across ? static_cast<int>(std::clamp(wide / (5.5 * character()), 3.0, 10.0))
-                  : static_cast<int>(std::clamp(frame_height / (1.7 * line()), 3.0, 10.0));
+                  : static_cast<int>(std::clamp(frame_height / (1.4 * line()), 3.0, 10.0));
   }
 };
 
@@ -50,6 +54,47 @@ std::string literal(std::string_view text) {
     out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return out + "'";
+}
+
+/// Upper estimate of the number of characters of a text; markup has no width.
+double characters(std::string_view text) {
+  return double(std::ranges::count_if(text, [](char c) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+    return !continues && std::string_view("_^{}\\").find(c) == std::string_view::npos;
+  }));
+}
+
+/// The text in lines of at most so many characters where a space allows it.
+std::vector<std::string> wrapped(std::string_view text, double most) {
+  std::vector<std::string> lines{""};
+  std::string word;
+  int braces = 0;
+  const auto end_word = [&] {
+    const bool room = characters(lines.back()) + 1 + characters(word) <= most;
+    if (!room && !lines.back().empty()) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + std::exchange(word, "");
+  };
+  // A number stays with its unit, and a symbol with its value.
+  const auto joined = [&](std::string_view next) {
+    return (!word.empty() && (std::isdigit(word.back()) || word.back() == '=')) ||
+           next.starts_with("= ") || next.starts_with("s/m");
+  };
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    braces += (text[k] == '{') - (text[k] == '}');
+    if (text[k] == ' ' && braces <= 0 && !joined(text.substr(k + 1)))
+      end_word();
+    else
+      word += text[k];
+  }
+  end_word();
+  return lines;
+}
+
+/// The lines as one text of gnuplot.
+std::string literal(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& one : lines) out += (out.empty() ? "" : ".\"\\n\".") + literal(one);
+  return out;
 }
 
 const char* palette_stops(Palette palette) {
@@ -92,14 +137,6 @@ struct Box {
   }
 };
 
-/// Upper estimate of the number of characters of a text; markup has no width.
-double characters(std::string_view text) {
-  return double(std::ranges::count_if(text, [](char c) {
-    const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-    return !continues && std::string_view("_^{}\\").find(c) == std::string_view::npos;
-  }));
-}
-
 void check(const Curve& curve) {
   const std::string field =
       "curve " + (curve.name.empty() ? std::string("without name") : curve.name);
@@ -114,10 +151,19 @@ void check(const Curve& curve) {
           "is not a colour; use -1 to 8");
 }
 
+/// In pixels, with the samples of the lines.
+double width_of_entries(const std::vector<std::string>& names, const Layout& layout) {
+  double longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, characters(name));
+  return layout.character() * longest + 4.6 * layout.font;
+}
+
 class PanelScript {
  public:
-  PanelScript(const Panel& panel, int number, const Layout& layout, std::string& out)
-      : panel_(panel), number_(number), layout_(layout), out_(out) {
+  /// own_legend: whether the legend is in or below the panel.
+  PanelScript(const Panel& panel, int number, const Layout& layout, bool own_legend,
+              std::string& out)
+      : panel_(panel), number_(number), layout_(layout), own_legend_(own_legend), out_(out) {
     for (const Curve& curve : panel.curves) check(curve);
     if (panel.image) check_raster(*panel.image);
     std::vector<std::span<const double>> x, y;
@@ -141,7 +187,40 @@ class PanelScript {
     set_linear_tics(y_, layout.labels(false));
     top_ = second_axis(panel.second_x, panel.x, x_, across);
     right_ = second_axis(panel.second_y, panel.y, y_, layout.labels(false));
+    const double high = layout.frame_height / layout.mean_character();
+    y_label_ = wrapped(y_.label, high);
+    if (right_) right_label_ = wrapped(right_->label, high);
+    if (raster_) scale_label_ = wrapped(raster_->scale.label, high);
+    // The title is in the middle of the frame, which is not that of the panel.
+    title_ =
+        wrapped(panel.title, (layout.width - std::abs(left() - right())) / layout.mean_character());
   }
+
+  /// Whether the panel of this script, right below, has the same axis x.
+  bool shares_x(const PanelScript& below) const {
+    return !panel_.image && !below.panel_.image && !below.top_ && x_.label == below.x_.label &&
+           x_.low == below.x_.low && x_.high == below.x_.high;
+  }
+  /// Leaves the numbers and the label of x to the panel below.
+  void hide_x() {
+    static const std::regex text("'[^']*'");
+    x_.label.clear();
+    x_.tics = x_.logarithmic ? std::regex_replace(x_.tics, text, "''") : x_.tics + " format ''";
+    x_hidden_ = true;
+  }
+  bool x_hidden() const { return x_hidden_; }
+
+  /// The entries of the legend.
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const ReferenceLine* mark : unplaced_) names.push_back(mark->name);
+    for (const Curve& curve : panel_.curves) names.push_back(curve.name);
+    for (const ShadedRange& range : panel_.ranges) names.push_back(range.name);
+    std::erase(names, "");
+    return names;
+  }
+  /// What draws them, each with its text; known after write().
+  const std::vector<std::pair<std::string, std::string>>& entries() const { return entries_; }
 
   /// Chooses the places of names and legend in a frame with this room on the left, in pixels.
   void arrange(double left) {
@@ -153,24 +232,26 @@ class PanelScript {
   /// Lines of text that the legend needs below the panel; 0: it is inside.
   int legend_rows() const {
     if (legend_ != below) return 0;
-    const double wide = legend_width(), entries = legend_entries();
+    const double wide = legend_width(), entries = double(names().size());
     return static_cast<int>(std::ceil(entries / std::max(1.0, std::floor(width_ / wide - 0.1))));
   }
 
   /// Room on the left of the frame for the label, the numbers and the tics of y, in pixels.
-  double left() const { return beside(y_); }
+  double left() const { return beside(y_, y_label_); }
 
   /// Room on the right for a second scale of y or the colour scale, and for the last number of x.
   double right() const {
     // A colour scale is a twentieth of the frame wide.
     if (raster_ && panel_.image->color_bar)
-      return beside(raster_->scale) + 0.7 * layout_.font + 0.05 * layout_.frame_width();
-    return right_ ? beside(*right_) : 1.7 * layout_.font;
+      return beside(raster_->scale, scale_label_) + 0.7 * layout_.font +
+             0.05 * layout_.frame_width();
+    return right_ ? beside(*right_, right_label_) : 1.7 * layout_.font;
   }
 
   /// Room above the frame for the title and the second scale of x, in pixels.
   double top() const {
-    return (panel_.title.empty() ? 0.8 : 2.4) * layout_.font + (top_ ? 3.7 * layout_.font : 0);
+    const double title = panel_.title.empty() ? 0.8 : 1 + 1.4 * double(title_.size());
+    return (title + (top_ ? 3.7 : 0)) * layout_.font;
   }
 
   /// place: commands that set the place of the panel.
@@ -290,8 +371,8 @@ class PanelScript {
       if (!placed) unplaced_.push_back(&mark);
     }
     legend_ = legend_place(panel_.legend);
-    const double rows = legend_entries();
-    if (rows == 0 || panel_.legend == Legend::right_of_panel) return;
+    const double rows = double(names().size());
+    if (rows == 0 || !own_legend_ || panel_.legend == Legend::right_of_panel) return;
     const double wide = legend_width(), high = layout_.line() * rows + 0.7 * layout_.font;
     // Nothing is drawn in a corner of an image that is not on it.
     if (panel_.image || height_ == 0) {
@@ -311,28 +392,8 @@ class PanelScript {
     legend_ = below;
   }
 
-  double legend_entries() const {
-    const auto named = [](const auto& one) { return !one.name.empty(); };
-    return double(unplaced_.size()) + double(std::ranges::count_if(panel_.curves, named)) +
-           double(std::ranges::count_if(panel_.ranges, named));
-  }
-
   /// In pixels, of one column with the samples of the lines.
-  double legend_width() const {
-    double longest = 0;
-    for (const ReferenceLine* mark : unplaced_)
-      longest = std::max(longest, characters(entry_of(*mark)));
-    for (const Curve& curve : panel_.curves) longest = std::max(longest, characters(curve.name));
-    for (const ShadedRange& range : panel_.ranges)
-      longest = std::max(longest, characters(range.name));
-    return layout_.character() * longest + 4.6 * layout_.font;
-  }
-
-  std::string entry_of(const ReferenceLine& mark) const {
-    const DisplayAxis& axis = mark.vertical ? x_ : y_;
-    return fmt::format("{}: {:.3g}{}{}", mark.name, mark.at * axis.factor,
-                       axis.unit.empty() ? "" : " ", axis.unit);
-  }
+  double legend_width() const { return width_of_entries(names(), layout_); }
 
   /// The pattern of the line; lines with the same name have the same.
   const char* dash_of(const ReferenceLine& mark) const {
@@ -340,9 +401,15 @@ class PanelScript {
     return line_dashes[static_cast<std::size_t>(first - panel_.lines.begin()) % line_dashes.size()];
   }
 
-  double beside(const DisplayAxis& axis) const {
-    return (axis.label.empty() ? 1.6 : 4.5) * layout_.font +
+  double beside(const DisplayAxis& axis, const std::vector<std::string>& label) const {
+    return (axis.label.empty() ? 1.6 : 2.9 + 1.4 * double(label.size())) * layout_.font +
            layout_.character() * double(axis.longest_tic);
+  }
+
+  /// An entry of the legend that is no curve.
+  void add_entry(const std::string& name, const std::string& drawn) {
+    entries_.emplace_back(name, drawn);
+    if (own_legend_) plots_.push_back(drawn + " title " + literal(name));
   }
 
   /// From side to side of the frame, between two values on an axis.
@@ -355,14 +422,14 @@ class PanelScript {
     line("reset");
     line("set encoding utf8\nset minussign");
     line("set border lw 0.8\nset tics out nomirror scale 0.7,0.35\nset mxtics\nset mytics");
-    line("set title {} offset 0,-0.4", literal(panel_.title));
+    line("set title {} offset 0,-0.4", literal(title_));
     line("set key {} samplen 2.4 spacing 1.05 width 0.5", legend_);
-    if (legend_entries() == 0) line("unset key");
+    if (names().empty() || !own_legend_) line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
-    write_axis("x", x_);
-    write_axis("y", y_);
-    if (top_) write_axis("x2", *top_);
-    if (right_) write_axis("y2", *right_);
+    write_axis("x", x_, {x_.label});
+    write_axis("y", y_, y_label_);
+    if (top_) write_axis("x2", *top_, {top_->label});
+    if (right_) write_axis("y2", *right_, right_label_);
     for (const ShadedRange& range : panel_.ranges) {
       const DisplayAxis& axis = range.vertical ? x_ : y_;
       const double low = std::max(axis.display(range.low), axis.low.value_or(-HUGE_VAL)),
@@ -371,9 +438,8 @@ class PanelScript {
       line("set object rectangle {} behind fc rgb '#808080' fs solid 0.15 noborder",
            side_to_side(range.vertical, low, high));
       if (!range.name.empty())
-        plots_.push_back(fmt::format(
-            "NaN with boxes lc rgb '#808080' fs solid 0.15 border lc rgb '#808080' title {}",
-            literal(range.name)));
+        add_entry(range.name,
+                  "NaN with boxes lc rgb '#808080' fs solid 0.15 border lc rgb '#808080'");
     }
     for (const ReferenceLine& mark : panel_.lines) {
       if (!seen(mark)) continue;
@@ -385,12 +451,12 @@ class PanelScript {
       line("set label {} at graph {:.2f},first {:.9g} right offset 0,{} tc '#404040' front",
            literal(mark->name), right, y_.display(mark->at), offset);
     for (const ReferenceLine* mark : unplaced_)
-      plots_.push_back(fmt::format("NaN with lines dt {} lw 1 lc '#404040' title {}",
-                                   dash_of(*mark), literal(entry_of(*mark))));
+      add_entry(mark->name, fmt::format("NaN with lines dt {} lw 1 lc '#404040'", dash_of(*mark)));
   }
 
-  void write_axis(const char* name, const DisplayAxis& axis) {
-    line("set {}label {}{}", name, literal(axis.label),
+  void write_axis(const char* name, const DisplayAxis& axis,
+                  const std::vector<std::string>& label) {
+    line("set {}label {}{}", name, literal(label),
          name == std::string_view("x2") ? " offset 0,-0.5" : "");
     const bool tight = name[0] == 'x' || panel_.image || name == std::string_view("y2");
     const auto bound = [](const std::optional<double>& value) {
@@ -414,7 +480,7 @@ class PanelScript {
     line("EOD");
     line("set palette defined ({})", palette_stops(image.palette));
     line("set cbrange [{:.9g}:{:.9g}]", *scale.low, *scale.high);
-    line("set cblabel {} offset 0.8,0", literal(scale.label));
+    line("set cblabel {} offset 0.8,0", literal(scale_label_));
     // The default format fills up short numbers with zeros if a limit has many digits.
     line("set format cb '%g'");
     if (!scale.tics.empty()) line("set cbtics {}", scale.tics);
@@ -470,11 +536,14 @@ class PanelScript {
             fmt::format("$curve{}_{} using 1:3:4 with filledcurves lc '{}' fs transparent solid "
                         "0.2 noborder notitle",
                         number_, k, color));
-      drawn.push_back(fmt::format("$curve{}_{} using {} lc '{}' {}", number_, k,
-                                  bars ? fmt::format("1:2:3:4 with yerrorbars {}", marker_of(which))
-                                       : "1:2 with " + style_of(curve.style, which),
-                                  color,
-                                  curve.name.empty() ? "notitle" : "title " + literal(curve.name)));
+      const std::string one =
+          fmt::format("$curve{}_{} using {} lc '{}'", number_, k,
+                      bars ? fmt::format("1:2:3:4 with yerrorbars {}", marker_of(which))
+                           : "1:2 with " + style_of(curve.style, which),
+                      color);
+      const bool named = !curve.name.empty();
+      if (named) entries_.emplace_back(curve.name, one);
+      drawn.push_back(one + (named && own_legend_ ? " title " + literal(curve.name) : " notitle"));
     }
     for (const auto* group : {&bands, &drawn, &labels_})
       plots_.insert(plots_.end(), group->begin(), group->end());
@@ -505,7 +574,10 @@ class PanelScript {
   const Panel& panel_;
   int number_;
   Layout layout_;
+  bool own_legend_, x_hidden_ = false;
   std::string& out_;
+  std::vector<std::string> title_, y_label_, right_label_, scale_label_;
+  std::vector<std::pair<std::string, std::string>> entries_;
   struct PlacedName {
     const ReferenceLine* mark;
     /// right: right end of the name, as a fraction of the frame's width; offset: its distance from
@@ -530,27 +602,62 @@ class PanelScript {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& given, PictureFormat format, std::optional<double> width) {
+namespace {
+
+/// The number of columns, and the size of panels and text. width: of the print, in pixels.
+Layout layout_of(const Figure& figure, std::optional<double> width, int& columns) {
+  if (!width) return {};
+  // Heights are in texts of 7 points. Above and below a frame are its title, numbers and label.
+  constexpr double least_panel = 300, page = 190.0 / 25.4 * 96, font = 7.0 / 72 * 96,
+                   around = 8 * font;
+  const int panels = static_cast<int>(figure.panels.size()), wanted = columns;
+  const auto rows = [&] { return (panels + columns - 1) / columns; };
+  columns = std::min(wanted, std::max(1, static_cast<int>(*width / least_panel)));
+  if (rows() > 5) columns = std::min(wanted, 2 * columns);
+  const double across = *width / columns,
+               caption = 0.75 * font * font * double(figure.caption.size()) / *width;
+  return {
+      .width = across,
+      .frame_height = std::clamp((page - caption) / rows() - around, 0.27 * across, 0.6 * across),
+      .font = font};
+}
+
+/// One legend for all panels, below them. bottom, height: its place, as shares of the picture.
+std::string common_legend(const std::vector<PanelScript>& scripts, int columns, double bottom,
+                          double height) {
+  std::vector<std::string> seen, keys;
+  for (const PanelScript& one : scripts)
+    for (const auto& [name, drawn] : one.entries()) {
+      if (std::ranges::find(seen, name) != seen.end()) continue;
+      seen.push_back(name);
+      keys.push_back(fmt::format("{} title {}", drawn, literal(name)));
+    }
+  // No data are within these ranges.
+  return fmt::format(
+      "reset\nset encoding utf8\nunset tics\nunset border\nset origin 0,{:.6f}\nset size 1,{:.6f}\n"
+      "set lmargin 0\nset rmargin 0\nset tmargin 0\nset bmargin 0\n"
+      "set key center center horizontal Left reverse maxcols {} samplen 2.4 width 0.5\n"
+      "plot [1e30:2e30] [1e30:2e30] {}\n",
+      bottom, height, columns, fmt::join(keys, ", \\\n     "));
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Figure& given, PictureFormat format, std::optional<double> width,
+                           bool with_caption) {
   require(!given.panels.empty(), "figure", given.panels.size(), "panels given; give at least one");
-  const Figure figure = with_limits(given);
+  Figure figure = for_width(given, width);
+  if (!with_caption) figure.caption.clear();
   const int panels = static_cast<int>(figure.panels.size());
   int columns =
       std::min(panels, figure.columns > 0
                            ? figure.columns
                            : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels)))));
-  Layout layout;
-  if (width) {
-    constexpr double inch = 0.0254, dots = 96, least_panel = 300, page = 0.24;
-    const double whole = *width / inch * dots;
-    columns = std::min(columns, std::max(1, static_cast<int>(whole / least_panel)));
-    const double across = whole / columns, rows = std::ceil(panels / double(columns));
-    // Many rows are lower, so that they come closer to the height of a page.
-    layout = {.width = across,
-              .frame_height =
-                  std::clamp(page / inch * dots / rows - 0.2 * across, 0.32 * across, 0.6 * across),
-              .font = 7.0 / 72 * dots};
-  }
+  constexpr double dots_per_metre = 96 / 0.0254;
+  const Layout layout =
+      layout_of(figure, width ? std::optional(*width * dots_per_metre) : std::nullopt, columns);
   const int rows = (panels + columns - 1) / columns;
+  const double across = columns * layout.width;
   std::string body;
   std::vector<PanelScript> scripts;
   // Frames of a row have the same height, with room for the longest legend below them; those of a
@@ -558,9 +665,14 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
   std::vector<double> tops(static_cast<std::size_t>(rows), 0),
       bottoms = tops, lefts(static_cast<std::size_t>(columns), 0);
   for (int k = 0; k < panels; ++k) {
-    scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout, body);
+    scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout,
+                         !figure.one_legend, body);
     double& left = lefts[static_cast<std::size_t>(k % columns)];
     left = std::max(left, scripts.back().left());
+  }
+  for (int k = 0; columns == 1 && k + 1 < panels; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (scripts[at].shares_x(scripts[at + 1])) scripts[at].hide_x();
   }
   // Lines of a legend are farther apart in an SVG, and the label of x is lower.
   const double line = (format == PictureFormat::svg ? 1.65 : 1.4) * layout.font,
@@ -571,15 +683,29 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
     const auto row = static_cast<std::size_t>(k / columns);
     const int legend = one.legend_rows();
     tops[row] = std::max(tops[row], one.top());
-    bottoms[row] = std::max(bottoms[row], layout.bottom() + (legend > 0 ? legend * line + gap : 0));
+    bottoms[row] = std::max(bottoms[row], (one.x_hidden() ? layout.font : layout.bottom()) +
+                                              (legend > 0 ? legend * line + gap : 0));
   }
   const auto height_of = [&](int row) {
     const auto at = static_cast<std::size_t>(row);
     return tops[at] + layout.frame_height + bottoms[at];
   };
+  // Below the panels are the legend of all, and the caption.
+  std::vector<std::string> names;
+  if (figure.one_legend)
+    for (const PanelScript& one : scripts)
+      for (const std::string& name : one.names())
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  const int in_row =
+      std::max(1, static_cast<int>(across / (1.2 * width_of_entries(names, layout))));
+  const double legend =
+      names.empty() ? 0 : line * std::ceil(double(names.size()) / in_row) + layout.font;
+  const std::vector<std::string> caption =
+      wrapped(figure.caption, (across - 2 * layout.font) / layout.mean_character());
+  const double text =
+      figure.caption.empty() ? 0 : (1.35 * double(caption.size()) + 1) * layout.font;
   const double title = figure.title.empty() ? 0 : 2.2 * layout.font;
-  const double across = columns * layout.width;
-  double down = title;
+  double down = title + legend + text;
   for (int row = 0; row < rows; ++row) down += height_of(row);
   double top = down - title;
   for (int k = 0; k < panels; ++k) {
@@ -598,8 +724,13 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
                     (from + 1) / columns - scripts[static_cast<std::size_t>(k)].right() / across) +
         (k == 0 && title > 0 ? fmt::format("set label {} at screen 0.5,{:.6f} center\n",
                                            literal(figure.title), 1 - 0.5 * title / down)
-                             : ""));
+                             : "") +
+        (k == 0 && text > 0
+             ? fmt::format("set label {} at screen {:.6f},{:.6f} left\n", literal(caption),
+                           layout.font / across, (text - layout.font) / down)
+             : ""));
   }
+  if (legend > 0) body += common_legend(scripts, in_row, text / down, legend / down);
   std::string out;
   // Sizes of pdfcairo are in inches; a picture for a screen has 100 pixels to an inch.
   const double points = width ? 96 : 100;

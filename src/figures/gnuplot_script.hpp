@@ -14,6 +14,6 @@ enum class PictureFormat { png, svg, pdf };
 /// file, because gnuplot runs a name that starts with '|' as a command. Throws InvalidInput for a
 /// figure that cannot be drawn.
 std::string gnuplot_script(const Figure& figure, PictureFormat format,
-                           std::optional<double> width = {});
+                           std::optional<double> width = {}, bool caption = true);
 
 }  // namespace salebra::figures

@@ -57,10 +57,7 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
               : error_text(work[largest], losses[largest].work_error, Dimension::energy);
   Figure figure{.kind = "joint",
                 .caption = fmt::format(
-                    "Loss of a joint in a cycle of the tangential motion, with its {}, and the "
-                    "loop of the largest motion with its backbone. The normal force is {} and the "
-                    "coefficient of friction {:.3g}.",
-                    several ? "95 % limits" : "error",
+                    "A joint under the normal force {}, with a coefficient of friction of {:.3g}.",
                     format_quantity(normal_force, Dimension::force, 4), friction_coefficient),
                 .columns = 2};
   // The force does not grow further while the joint slides; then the amplitude tells the motions
@@ -73,6 +70,10 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
       {.title =
            fmt::format("normal force F = {}, µ = {:.3g}",
                        format_quantity(normal_force, Dimension::force, 4), friction_coefficient),
+       .caption =
+           fmt::format("Energy lost in a cycle{}.", several        ? ", with its 95 % limits"
+                                                    : !low.empty() ? ", with its numerical error"
+                                                                   : ""),
        .x = axis_of(slides ? "tangential_amplitude" : "tangential_force", grows_by_factors(along)),
        .y = axis_of("work_per_cycle", spans_decades(work), "loss W in a cycle"),
        .legend = Legend::top_left});
@@ -83,10 +84,14 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
                                   .low = low,
                                   .high = high,
                                   .style = Style::line_and_points}};
-  figure.panels.push_back({.title = "largest motion: W = " + loss,
-                           .x = axis_of("tangential_amplitude", false, "displacement x"),
-                           .y = axis_of("tangential_force", false, "tangential force F_x"),
-                           .legend = Legend::top_left});
+  figure.panels.back().y.prefix_of = work[largest];
+  // A joint that slides is no damper.
+  figure.panels.push_back(
+      {.title = fmt::format("largest motion, {}: W = {}", name_of(losses[largest].regime), loss),
+       .caption = "Loop of the largest motion with its backbone.",
+       .x = axis_of("tangential_amplitude", false, "displacement x"),
+       .y = axis_of("tangential_force", false, "tangential force F_x"),
+       .legend = Legend::top_left});
   figure.panels.back().curves = {{.name = "loop", .x = displacement, .y = loop},
                                  backbone_of(displacement, loop)};
   return figure;

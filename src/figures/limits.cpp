@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limits and SI prefixes of axes, the same for all renderers.
+// Limits and SI prefixes of axes and letters of panels, the same for all renderers.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -64,15 +66,46 @@ Figure with_limits(Figure figure) {
       Axis& one = panel.*axis;
       if (!one.quantity.empty() && one.low && one.high) same[one.quantity].push_back(&one);
     }
-  // A quantity has one unit in all panels, that of its largest number.
+  // A quantity has one unit in all panels: that of its headline or else of its largest number.
   for (const auto& [quantity, axes] : same) {
+    std::optional<double> value;
     double largest = 0;
-    for (const Axis* axis : axes)
+    for (const Axis* axis : axes) {
       largest = std::max({largest, std::abs(*axis->low), std::abs(*axis->high)});
-    if (!std::ranges::all_of(axes, &Axis::logarithmic))
-      for (Axis* axis : axes) axis->prefix_of = largest;
+      if (axis->prefix_of) value = axis->prefix_of;
+    }
+    if (!value && !std::ranges::all_of(axes, &Axis::logarithmic)) value = largest;
+    for (Axis* axis : axes) axis->prefix_of = value;
+  }
+  char letter = 'a';
+  for (Panel& panel : figure.panels) {
+    // A density has the inverse of the unit along x.
+    if (panel.y.unit == "1/m" && panel.x.unit == "m" && panel.x.high)
+      panel.y.prefix_of =
+          std::pow(10, -3 * std::floor(std::log10(std::max(*panel.x.high, -*panel.x.low)) / 3));
+    const std::string mark = fmt::format("({})", letter++);
+    const bool several = figure.panels.size() > 1;
+    if (several && !panel.title.starts_with(mark))
+      panel.title = mark + (panel.title.empty() ? "" : " ") + panel.title;
+    if (panel.caption.empty()) continue;
+    figure.caption += fmt::format("{}{}{}", figure.caption.empty() ? "" : " ",
+                                  several ? mark + " " : "", panel.caption);
+    panel.caption.clear();
   }
   return figure;
+}
+
+Figure for_width(Figure figure, std::optional<double> width) {
+  constexpr double two_columns = 0.12;
+  if (width.value_or(1) < two_columns) {
+    std::erase_if(figure.panels, &Panel::detail);
+    // In one column the second scale of the panel at the top is that of the panels below.
+    for (std::size_t k = 1; k < figure.panels.size(); ++k)
+      if (auto& second = figure.panels[k].second_x;
+          second && figure.panels[0].second_x && second->label == figure.panels[0].second_x->label)
+        second = {};
+  }
+  return with_limits(std::move(figure));
 }
 
 }  // namespace salebra::figures

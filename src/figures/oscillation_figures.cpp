@@ -62,10 +62,7 @@ Panel loop_panel(const OscillationOutcome& outcome) {
 
 Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
                  const std::vector<std::string>& names) {
-  Figure figure{.kind = "oscillation",
-                .caption =
-                    "Cells that are always in contact (black) and sometimes (grey), and the "
-                    "work over a cycle."};
+  Figure figure{.kind = "oscillation", .caption = "Oscillating contacts."};
   const bool single = outcomes.size() == 1;
   if (!outcomes.empty()) {
     const OscillationCase& run = outcomes.front().run;
@@ -97,6 +94,15 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   }
   for (const OscillationOutcome& outcome : outcomes)
     if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
+  // One sentence for the maps, and one for the curves.
+  const std::size_t count = outcomes.size();
+  const auto to = [&](std::size_t last) {
+    return single ? "" : fmt::format("to ({}) ", char('a' + last));
+  };
+  if (count == 0) return figure;
+  figure.panels[0].caption =
+      to(count - 1) + "Cells always in contact (black) or during a part of the cycle (grey).";
+  figure.panels[count].caption = to(2 * count - 1) + "Work over a cycle.";
   return figure;
 }
 

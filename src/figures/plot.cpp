@@ -81,12 +81,13 @@ void require_plot(const std::filesystem::path& file, const WriteOptions& options
 }
 
 void write_plot(const std::filesystem::path& file, const Figure& figure,
-                const WriteOptions& options, std::optional<double> width) {
+                const WriteOptions& options, std::optional<double> width, bool caption) {
   const std::optional<PictureFormat> format = format_of(file);
   if (format) require_gnuplot(file);
   detail::AtomicFile target(file, options);
   const std::string content =
-      format ? run_gnuplot(file, gnuplot_script(figure, *format, width)) : figure_json(figure);
+      format ? run_gnuplot(file, gnuplot_script(figure, *format, width, caption))
+             : figure_json(figure);
   if (format) require_whole(file, content, *format);
   target.write(content);
   target.commit();

@@ -23,6 +23,7 @@ void require_plot(const std::filesystem::path& file, const WriteOptions& options
 /// and for a figure without data; IoError with gnuplot's message if gnuplot fails. Cost: 0.1 to 1 s,
 /// and one gnuplot process.
 void write_plot(const std::filesystem::path& file, const Figure& figure,
-                const WriteOptions& options = {}, std::optional<double> width = {});
+                const WriteOptions& options = {}, std::optional<double> width = {},
+                bool caption = true);
 
 }  // namespace salebra::figures

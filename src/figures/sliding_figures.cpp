@@ -17,12 +17,15 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   slow.style = Style::dashed;
   if (points.size() <= 30) mean.style = Style::line_and_points;
   Curve total{.name = "total", .quantity = "work_per_cycle"},
-      opening{.name = "relaxation", .quantity = "relaxation_work"};
+      opening{.name = "relaxation", .quantity = "relaxation_work"},
+      slip{.name = "slip", .quantity = "slip_work"};
   total.style = opening.style = mean.style;
+  slip.style = Style::dashed;
+  slip.color = 6;
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;
-    for (Curve* curve : {&mean, &total, &opening}) curve->x.push_back(velocity);
+    for (Curve* curve : {&mean, &total, &opening, &slip}) curve->x.push_back(velocity);
     mean.y.push_back(state.friction_coefficient);
     // Only a surface has errors.
     if (const double error = point.errors.friction_coefficient_error; !std::isnan(error)) {
@@ -31,6 +34,7 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
     }
     total.y.push_back(state.relaxation_work + state.slip_work);
     opening.y.push_back(state.relaxation_work);
+    slip.y.push_back(state.slip_work);
   }
   if (mean.low.size() != mean.x.size()) mean.low = mean.high = {};
   const Axis x = axis_of("velocity", grows_by_factors(mean.x));
@@ -49,15 +53,16 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   Figure figure{
       .kind = "sliding",
       .caption =
-          "Mean tangential over mean normal force of steady sliding under a normal oscillation, "
-          "with its limit for slow sliding, µ_0 + Γv/F (static friction µ_0, damping constant Γ), "
-          "and the energy lost in a normal cycle; relaxation is the part of springs that open.",
+          "Steady sliding under a normal oscillation; above the critical velocity v_c nothing "
+          "sticks.",
       .columns = 2};
   figure.panels.push_back(
       {.title =
            "static friction µ_0 = " + error_text(first.state.static_friction_coefficient,
                                                  first.errors.static_friction_coefficient_error,
                                                  Dimension::dimensionless),
+       .caption = "Mean tangential over mean normal force, with its limit for slow sliding, µ_0 + "
+                  "Γv/F (static friction µ_0, damping constant Γ).",
        .x = x,
        .y = axis_of("friction_coefficient", false, "coefficient of friction F_x/F"),
        .legend = Legend::top_left});
@@ -66,10 +71,18 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
       {.title = "slow sliding: Γ = " + error_text(first.state.low_speed_damping,
                                                   first.errors.low_speed_damping_error,
                                                   Dimension::damping),
+       .caption = "Energy lost in a normal cycle; relaxation is the part of springs that open.",
        .x = x,
        .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W in a normal cycle"),
        .legend = Legend::top_left});
-  figure.panels.back().curves = {total, opening};
+  figure.panels.back().curves = {total, opening, slip};
+  const double critical = first.state.critical_velocity;
+  if (critical > lowest && critical < highest)
+    for (Panel& panel : figure.panels)
+      panel.lines = {{.at = critical,
+                      .vertical = true,
+                      .name = "v_c = " + value_text(critical, "m/s"),
+                      .quantity = "critical_velocity"}};
   return figure;
 }
 
@@ -79,8 +92,8 @@ Figure figure_of(const std::vector<SlidingPoint>& points, const SlidingProblem& 
   const std::vector<double>& amplitudes = problem.normal_amplitude;
   Figure figure{.kind = "sliding_map",
                 .caption =
-                    "Mean tangential over mean normal force of steady sliding under a normal "
-                    "oscillation, and its growth with the velocity; white where it does not grow.",
+                    "Steady sliding under a normal oscillation. (a) Mean tangential over mean "
+                    "normal force. (b) Its growth with the velocity; white where it does not grow.",
                 .columns = 2};
   const auto panel = [&](const char* title, Axis scale, double SteadySliding::*member) {
     Image image{.x = along, .y = amplitudes, .scale = std::move(scale)};
@@ -172,7 +185,7 @@ Figure figure_of(const SliderMotion& full, const SliderMotion& averaged, double 
   Figure figure{.kind = "slider",
                 .caption =
                     "Motion of a slider on a contact that oscillates, by the full equation and "
-                    "by the averaged one.",
+                    "by the averaged one. (a) Its velocity. (b) The force of its spring.",
                 .columns = 2};
   figure.panels.push_back({.title = "Velocity of the slider",
                            .x = axis_of("time", false, "time t"),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -91,7 +92,9 @@ void add_answer(const StudyNumbers& numbers, Panel& damping) {
                           : error_text(last->mean, last->error, Dimension::damping)) +
                   " at " +
                   format_quantity(numbers.pressures[std::size_t(means.rend() - last) - 1],
-                                  Dimension::pressure, 3);
+                                  Dimension::pressure, 3) +
+                  (numbers.validity.empty() ? "" : " (" + numbers.validity + ")");
+  damping.y.prefix_of = last->mean;
   const std::string name = numbers.slips
                                ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
                                : "without slip";
@@ -223,7 +226,7 @@ class Pictures {
     const EnsembleMean length = decay_length();
     if (!std::isfinite(length.mean)) return;
     panel.title = "decay length l = " +
-                  interval_text(length.mean, length.low, length.high, Dimension::length);
+                  interval_text(length.mean, length.low, length.high, Dimension::length) + n_.law;
     const auto window = [&](double PressureWindow::*end) {
       std::vector<double> ends;
       for (const ExponentialFit& fit : n_.fits) ends.push_back(fit.window.*end);
@@ -266,7 +269,7 @@ class Pictures {
 
   void of_damping() {
     const bool drag = std::holds_alternative<Drag>(*n_.motion);
-    const char *fitted = drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l",
+    const char *fitted = "exponential law, fitted",
                *small = drag ? "Eq. (15), F″ of the curve" : "Eq. (12), F″ of the curve";
     Panel& panel = add(
         "damping-curve", "Damping",
@@ -343,9 +346,7 @@ class Pictures {
                        {.label = "γ over that of BEM"});
     Means ratio = n_.deviation;
     for (EnsembleMean& one : ratio) one = {one.mean + 1, one.low + 1, one.high + 1};
-    panel.curves.push_back(
-        band(std::holds_alternative<Drag>(*n_.motion) ? "Eq. (16), fitted l" : "Eq. (12), fitted l",
-             n_.pressures, ratio, 7, Style::dashed));
+    panel.curves.push_back(band("exponential law, fitted", n_.pressures, ratio, 7, Style::dashed));
     for (const StudyNumbers::Model& model : n_.models)
       if (model.color != int(ContactModel::bem))
         panel.curves.push_back(
@@ -408,6 +409,7 @@ StudyNumbers numbers_of(const StudyResult& result) {
     for (const SpotStatistics& spots : surface.spots)
       corrected.push_back(spots.corrected_area_fraction);
   }
+  if (const auto law = result.law_description()) numbers.law = poor_law(*law);
   if (configuration.adhesion) return numbers;
   const StudySolution answer = solution_of(result);
   numbers.motion = configuration.motion;
@@ -417,6 +419,7 @@ StudyNumbers numbers_of(const StudyResult& result) {
   numbers.direction = answer.direction;
   numbers.slips = answer.slips();
   numbers.damping_constant = answer.damping_constant;
+  numbers.validity = validity_text(answer.verdicts);
   numbers.closed_form = result.damping("damping_constant_closed_form");
   numbers.small_amplitude = result.damping("small_amplitude_damping_constant");
   numbers.deviation = result.deviation();
@@ -426,7 +429,9 @@ StudyNumbers numbers_of(const StudyResult& result) {
 std::vector<Figure> study_pictures(const StudyNumbers& numbers) { return Pictures(numbers).all(); }
 
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied) {
-  Figure figure{.kind = "study"};
+  Figure figure{.kind = "study", .one_legend = true};
+  constexpr std::array<std::string_view, 3> details{"stiffness-ratio", "local-length",
+                                                    "damping-ratio"};
   figure.columns = results.size() == 1 ? 2 : int(results.size());
   std::vector<std::vector<Figure>> points;
   for (const StudyResult& result : results) points.push_back(study_pictures(numbers_of(result)));
@@ -441,20 +446,14 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
     if (row.size() > 1) share_limits(row);
     for (std::size_t i = 0; i < row.size(); ++i) {
       Panel& panel = *row[i];
-      // The legend of the models is that of the first panel; only panels in the first column have one.
-      for (Curve& curve : panel.curves)
-        if (i > 0 || (!figure.panels.empty() &&
-                      std::ranges::any_of(results.front().models(), [&](const StudyModel& model) {
-                        return curve.name == model.title;
-                      })))
-          curve.name.clear();
-      if (i > 0) {
+      if (i == 0)
+        panel.caption =
+            first.title + (first.kind == "damping-curve"
+                               ? ": points, of the motion as described; lines, without slip."
+                               : ".");
+      else
         for (ReferenceLine& line : panel.lines) line.name.clear();
-        for (ShadedRange& range : panel.ranges) range.name.clear();
-      }
-      if (first.kind == "damping-curve" && i == 0 &&
-          !std::isnan(results.front().configuration.known.friction_coefficient))
-        panel.curves.front().name = "without slip, as all lines";
+      panel.detail = std::ranges::find(details, first.kind) != details.end();
       if (figure.panels.size() < row.size() && row.size() > 1)
         panel.title = describe_point(varied, results[i].configuration) +
                       (panel.title.empty() ? "" : ", " + panel.title);
@@ -465,8 +464,11 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
     }
   }
   figure.caption =
-      "Gap, area, stiffness and damping of all models over the pressure, with 95 % bands; the "
-      "colours of the models are those named in the first panel." +
+      std::string("Contact models of rough surfaces, with ") +
+      (results.front().realisations.size() > 1 ? "95 % bands."
+                                               : "numerical errors of the damping constants; a bar "
+                                                 "that is not seen is shorter than its "
+                                                 "symbol.") +
       (results.front().configuration.adhesion ? ""
                                               : " " + motion_sentence(numbers_of(results.front())));
   return figure;

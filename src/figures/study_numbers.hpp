@@ -39,6 +39,7 @@ struct StudyNumbers {
   double excursion = unknown, friction_coefficient = unknown, direction = unknown;
   bool slips = false;                             ///< damping_constant is with slip
   std::vector<StatedMean> damping_constant = {};  ///< of the motion as described
+  std::string validity = {}, law = {};  ///< what the headlines say of results that are not valid
   /// Of the boundary elements without slip: by the fitted law, by the curvature of the curve, and the
   /// deviation of the first from the computed loss.
   std::vector<EnsembleMean> closed_form = {}, small_amplitude = {}, deviation = {};

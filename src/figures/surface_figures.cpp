@@ -61,6 +61,14 @@ void add_ends(Panel& panel, const SelfAffineFit& law, const std::string& way) {
            .name = name + way + " " + format_quantity(length, Dimension::length, 3)});
 }
 
+std::string lay_text(const SurfaceLay& lay) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  return fmt::format(
+      ", lay at {:.0f}° ± {:.1g}°, slope across over along {}", lay.angle * degrees,
+      lay.angle_error * degrees,
+      interval_text(lay.ratio, lay.ratio_low, lay.ratio_high, Dimension::dimensionless));
+}
+
 std::string hurst_text(const HurstEstimate& hurst) {
   return fmt::format("H = {:.2f} ({:.2f} … {:.2f})", hurst.value, hurst.low, hurst.high);
 }
@@ -108,7 +116,7 @@ Panel lay_panel(const SurfaceSpectrum& of) {
   if (!of.of_lay->across.hurst.found()) panel.title = "profiles; no power law was found";
   for (const bool along : {false, true}) {
     const SelfAffineFit& law = along ? of.of_lay->along : of.of_lay->across;
-    const double direction = of.lay_angle + (along ? 0 : std::numbers::pi / 2);
+    const double direction = of.lay.angle + (along ? 0 : std::numbers::pi / 2);
     const std::string way = along ? " along" : " across";
     const double lowest =
         2 * std::numbers::pi *
@@ -142,7 +150,9 @@ Panel lay_panel(const SurfaceSpectrum& of) {
 Panel distribution_panel(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
-  Panel panel;
+  Panel panel{.caption =
+                  "Distribution of the heights beside the Gaussian of the same mean and rms "
+                  "height."};
   panel.title = fmt::format("skewness {}{:.2f}, kurtosis {:.2f}", heights.skewness < 0 ? "−" : "",
                             std::abs(heights.skewness), heights.kurtosis);
   panel.x = axis_of("height", false, "height");
@@ -173,7 +183,7 @@ SurfaceSpectrum spectrum_of(const Surface& surface) {
     // Profiles need a window on every surface.
     result.spectrum = power_spectrum(surface, Window::hann);
     result.of_lay = fit_self_affine(*result.spectrum, lay);
-    result.lay_angle = lay.angle;
+    result.lay = lay;
   } else {
     result.spectrum = power_spectrum(surface);
     result.law = fit_self_affine(*result.spectrum);
@@ -185,23 +195,23 @@ Figure figure_of(const Surface& surface, const SurfaceSpectrum& of) {
   const HeightStatistics statistics = height_statistics(surface);
   Figure figure{
       .kind = "surface",
-      .caption = fmt::format(
-          "Heights of the surface ({} × {} points), its {} with the 95 % confidence band{}, "
-          "and the distribution of the heights beside the Gaussian of the same mean and rms "
-          "height.",
-          surface.grid.nx, surface.grid.ny,
-          of.of_lay ? "power spectral density of profiles across and along the lay"
-                    : "radial power spectral density",
-          of.law.hurst.found() || (of.of_lay && of.of_lay->across.hurst.found())
-              ? " and the fitted power law in the range of its fit"
-              : "")};
-  figure.panels.push_back(map_panel(
-      surface.grid, surface.heights,
-      "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3) +
-          (of.of_lay ? fmt::format(", lay at {:.0f}°", of.lay_angle * 180 / std::numbers::pi) : ""),
-      axis_of("heights", false, "height")));
-  if (of.spectrum && of.spectrum->psd.maxCoeff() > 0)
+      .caption = fmt::format("A surface of {} × {} points.", surface.grid.nx, surface.grid.ny)};
+  figure.panels.push_back(
+      map_panel(surface.grid, surface.heights,
+                "rms height " + format_quantity(statistics.rms_height, Dimension::length, 3) +
+                    (of.of_lay ? lay_text(of.lay) : ""),
+                axis_of("heights", false, "height")));
+  figure.panels.back().caption = "Heights.";
+  if (of.spectrum && of.spectrum->psd.maxCoeff() > 0) {
     figure.panels.push_back(of.of_lay ? lay_panel(of) : spectrum_panel(of));
+    figure.panels.back().caption =
+        fmt::format("{} with the 95 % confidence band{}.",
+                    of.of_lay ? "Power spectral density of profiles across and along the lay"
+                              : "Radial power spectral density",
+                    of.law.hurst.found() || (of.of_lay && of.of_lay->across.hurst.found())
+                        ? " and the fitted power law in the range of its fit"
+                        : "");
+  }
   if (statistics.rms_height > 0) figure.panels.push_back(distribution_panel(surface));
   figure.columns = static_cast<int>(figure.panels.size());
   return figure;

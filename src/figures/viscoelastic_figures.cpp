@@ -17,14 +17,19 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     return out;
   };
   Figure figure{.kind = "viscoelastic",
-                .caption =
-                    "Energy lost in a cycle on a viscoelastic body by its causes, beside the loss "
-                    "of an elastic body of the relaxed modulus, and the complex modulus.",
+                .caption = "An oscillating contact of a viscoelastic body.",
                 .columns = 2};
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+  const ViscoelasticDamping& last = losses.back().damping;
+  figure.panels.push_back({.title = "W = " + value_text(last.work_per_cycle, "J") +
+                                    ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
+                                    value_text(values.back(), x.unit),
+                           .caption = "Energy lost in a cycle and its causes, beside the loss of "
+                                      "an elastic body of the relaxed modulus.",
                            .x = x,
                            .y = axis_of("work_per_cycle", true, "loss W"),
                            .legend = Legend::top_left});
+  figure.panels.back().x.prefix_of = values.back();
+  figure.panels.back().y.prefix_of = last.work_per_cycle;
   figure.panels.back().curves = {
       curve("material, normal", "normal_material_work",
             [](const auto& loss) { return loss.damping.normal_material_work; }),
@@ -35,8 +40,14 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       curve("elastic, relaxed modulus", "elastic_work",
             [](const auto& loss) { return loss.elastic_work; })};
   figure.panels.back().curves.back().style = Style::dashed;
+  Curve total = curve("total", "work_per_cycle",
+                      [](const auto& loss) { return loss.damping.work_per_cycle; });
+  total.style = Style::dotted;
+  total.color = 6;
+  figure.panels.back().curves.push_back(std::move(total));
   figure.panels.push_back(
       {.title = "Complex shear modulus",
+       .caption = "Complex modulus.",
        .x = x,
        .y = {.label = "shear modulus G′, G″", .unit = "Pa", .logarithmic = true},
        .legend = Legend::top_left});
@@ -58,9 +69,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   using C = ViscoelasticCycle;
   Figure figure{.kind = "viscoelastic_cycle",
                 .caption =
-                    "Energy lost in a cycle of a rough contact on a viscoelastic body by the "
-                    "two directions of motion, with the part that cells release when they "
-                    "leave, and stiffnesses in and out of phase.",
+                    "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
+                    "two directions of motion, with the part that cells release when they leave. "
+                    "(b) Stiffnesses in and out of phase.",
                 .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = x,

@@ -211,6 +211,8 @@ class PageFigures : StudyGroups {
     };
     const auto length = fit("decay_length"), reference = fit("reference_pressure"),
                least = fit("pressure_min"), most = fit("pressure_max");
+    if (has("fit/fair") && !std::isnan(part("fit/law_off_at_min_gap", m, 1)[0]))
+      numbers.law = figures::poor_law({.fair = part("fit/fair", m, 1)[0] != 0});
     const auto gaps = rows("local/mean_gap", surfaces, m, models),
                lengths = rows("local/local_decay_length", surfaces, m, models);
     for (std::size_t i = 0; i < surfaces; ++i) {
@@ -234,6 +236,10 @@ class PageFigures : StudyGroups {
     numbers.friction_coefficient = given("friction_coefficient");
     numbers.direction = given("direction");
     numbers.damping_constant = means("solution/damping_constant");
+    // The summary of the page says why.
+    if (const std::string word = text("solution", "validity");
+        word == name_of(Validity::not_valid) || word == name_of(Validity::valid_with_care))
+      numbers.validity = word;
     numbers.slips = text("solution", "slip_followed") == "yes";
   }
 

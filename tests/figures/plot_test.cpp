@@ -244,7 +244,12 @@ TEST_CASE(
   // The prefix of 1/m belongs to the metre, and a logarithmic axis has that of its middle.
   panel.y = {.label = "density", .unit = "1/m"};
   panel.curves = {{.x = {1, 2}, .y = {1e7, 4e7}}};
+  panel.x.unit = "s";
   CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("'density (1/µm)'"));
+  // A density over a length has the inverse of its unit.
+  panel.x.unit = "m";
+  panel.curves[0].x = {10e-9, 20e-9};
+  CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("'density (1/nm)'"));
   panel.y = {.label = "velocity", .unit = "m/s", .logarithmic = true};
   panel.curves = {{.x = {1, 2}, .y = {1e-6, 1e-3}}};
   CHECK_THAT(gnuplot_script(figure, PictureFormat::svg), Contains("'velocity (µm/s)'"));

@@ -63,12 +63,13 @@ def figure_of(file: Path) -> Any:
 def check(name: str, figure: Any, width: float | None) -> None:
     """The picture has the numbers of the figure, no text over another or beyond the paper, and no legend over data."""
     drawn = _plots.plot_figure(figure, width, False)
+    panels = [panel for panel in figure.panels if width is None or width > 0.12 or not panel.detail]
     texts: list[Text] = []
     draw = Text.draw
     with mock.patch.object(Text, "draw", lambda self, renderer: (texts.append(self), draw(self, renderer))[1]):
         FigureCanvasAgg(drawn).draw()
     boxes = [(text.get_text(), text.get_window_extent()) for text in texts if text.get_text().strip() and text.get_visible()]
-    assert len(boxes) > 4 * len(figure.panels), name  # labels and numbers of two axes each
+    assert len(boxes) > 4 * len(panels), name  # labels and numbers of two axes each
     paper = drawn.bbox.padded(1)
     for k, (text, box) in enumerate(boxes):
         assert paper.containsx(box.x0) and paper.containsx(box.x1) and paper.containsy(box.y0) and paper.containsy(box.y1), (name, width, text)
@@ -79,8 +80,13 @@ def check(name: str, figure: Any, width: float | None) -> None:
         legend = ax.get_legend()
         if legend:
             assert not any(legend.get_window_extent().overlaps(frame.bbox) for frame in axes), (name, width)
-    assert len(axes) == len(figure.panels)
-    for ax, panel in zip(axes, figure.panels):
+    assert len(axes) == len(panels)
+    # Letters, which the caption refers to.
+    caption = " ".join(text.get_text() for text in drawn.texts).replace("\n", " ").replace("\u00a0", " ")
+    for letter, ax, panel in zip("abcdefghijklmnopqrstuvwxyz", axes, panels):
+        assert ax.get_title().startswith(f"({letter})") == (len(figure.panels) > 1), name
+    assert figure.caption[:12].split("_")[0] in caption, name
+    for ax, panel in zip(axes, panels):
         on_data = [line.get_transform().contains_branch(ax.transData) for line in ax.lines]
         curves = [line for line, data in zip(ax.lines, on_data) if data]
         assert len(curves) == len(panel.curves) and len(ax.lines) - len(curves) == len(panel.lines), name
@@ -174,7 +180,7 @@ def test_pictures_for_a_journal_have_its_width_and_text_as_text(tmp_path: Path, 
     figure.save(tmp_path / "a.json")
     drawn = (tmp_path / "a.svg").read_text()
     assert float(re.search(r'width="([\d.]+)pt"', drawn)[1]) == pytest.approx(85 / 25.4 * 72, rel=1e-4)
-    assert ">mean gap ū (µm)</text>" in drawn and "<script" not in drawn
+    assert ">mean gap ū (nm)</text>" in drawn and "<script" not in drawn
     assert b"/FontFile2" in (tmp_path / "a.pdf").read_bytes()
     assert (tmp_path / "a.json").read_text() == figure.json()
     check("loaded", figure_of(tmp_path / "a.json"), COLUMN)

@@ -148,6 +148,7 @@ enum class Legend { top_right, top_left, bottom_right, bottom_left, right_of_pan
 
 struct Panel {
   std::string title = {};
+  std::string caption = {};  ///< its part of the caption; with_limits() puts it there
   Axis x = {}, y = {};
   std::optional<SecondAxis> second_x = {}, second_y = {};
   std::optional<Image> image = {};  ///< drawn under the curves
@@ -156,11 +157,13 @@ struct Panel {
   std::vector<ShadedRange> ranges = {};
   Legend legend = Legend::top_right;
   bool equal_scales = false;  ///< a metre has the same length along x and y
+  bool detail = false;        ///< left out of a picture for one column of a journal
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Panel>) {
   using S = Panel;
   visit(&S::title, Kept{"title", "text above the panel"});
+  visit(&S::caption, Kept{"caption", "its part of the caption"});
   visit(&S::x, Kept{"x", "horizontal axis"});
   visit(&S::y, Kept{"y", "vertical axis"});
   visit(&S::second_x, Kept{"second_x", "second scale of x, along the top"});
@@ -171,6 +174,7 @@ constexpr void describe(auto&& visit, std::type_identity<Panel>) {
   visit(&S::ranges, Kept{"ranges", "shaded ranges"});
   visit(&S::legend, Kept{"legend", "corner of the legend, or right_of_panel"});
   visit(&S::equal_scales, Kept{"equal_scales", "whether x and y have the same scale"});
+  visit(&S::detail, Kept{"detail", "whether a narrow picture leaves it out"});
 }
 
 struct Figure {
@@ -179,6 +183,7 @@ struct Figure {
   std::string caption = {};  ///< what is drawn, and for which motion
   std::vector<Panel> panels = {};
   int columns = 0;  ///< number of panels in a row; 0: chosen so that the figure is about square
+  bool one_legend = false;  ///< one legend below all panels, in place of one for each
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Figure>) {
@@ -188,12 +193,18 @@ constexpr void describe(auto&& visit, std::type_identity<Figure>) {
   visit(&S::caption, Kept{"caption", "what is drawn, and for which motion"});
   visit(&S::panels, Kept{"panels", "panels, row by row"});
   visit(&S::columns, Kept{"columns", "panels in a row; 0: about a square"});
+  visit(&S::one_legend, Kept{"one_legend", "whether all panels share one legend"});
 }
 
-/// The figure with limits for all its axes except those of images, and with one SI prefix for a
-/// quantity that several panels have. An axis of values that are constant to within a percent does
-/// not magnify their differences. figure_json() and the pictures have these limits.
+/// The figure with limits for all its axes except those of images, with one SI prefix for a quantity
+/// that several panels have, and with a letter for each of several panels, "(a) ", in its title and
+/// before its part of the caption. An axis of values that are constant to within a percent does not
+/// magnify their differences. figure_json() and the pictures have these limits and letters.
 Figure with_limits(Figure figure);
+
+/// The figure as a picture of this width shows it, with limits: one column of a journal (below
+/// 120 mm) has no room for panels of details. Empty: any room.
+Figure for_width(Figure figure, std::optional<double> width);
 
 /// Escapes the characters of a text that are markup, so that the text (such as a file name) is
 /// drawn as it is.

@@ -5,8 +5,10 @@
 #include <optional>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
+#include <salebra/surface/lay.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,7 @@ class BearingCurve;
 class ContactLaw;
 class IndenterLaw;
 struct AsperityDamping;
+struct Assumptions;
 struct ContactSetAt;
 struct ContactSpots;
 struct Correlation;
@@ -64,6 +67,10 @@ struct ViscoelasticLoss;
 /// anything to draw. Cost: that of copying the numbers, unless stated otherwise.
 namespace salebra::figures {
 
+/// Adds to the headlines of damping constants and losses, "γ = 14.1 N s/m", that these assumptions
+/// make the result not valid, or valid with care, and why.
+void state_validity(Figure& figure, std::span<const Assumptions> cases, bool slip_followed);
+
 /// One curve of two quantities by their names in JSON and files, which give labels and units; an axis
 /// is logarithmic where positive values span more than 1.5 decades. It draws results without a figure
 /// of their own, such as lists of means with their limits:
@@ -74,9 +81,9 @@ Figure curve_figure(std::string_view x, std::string_view y, Curve curve);
 struct SurfaceSpectrum {
   std::optional<PowerSpectrum> spectrum;
   SelfAffineFit law;  ///< of the mean over all directions
-  /// On a surface with a lay: the laws of profiles across and along it, and its angle, rad.
+  /// On a surface with a lay: the laws of profiles across and along it.
   std::optional<DirectionalSelfAffineFit> of_lay = {};
-  double lay_angle = 0;
+  SurfaceLay lay = {};
 };
 
 /// Cost: a Fourier transform, and the fits of the laws.
