@@ -356,7 +356,8 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, ca
         if entries:
             drawn.legend(entries.values(), entries.keys(), loc="lower center", bbox_to_anchor=(0.5, rest / high), ncols=in_row, frameon=False, borderpad=0, borderaxespad=0)
         if below:
-            drawn.get_layout_engine().set(rect=(0, below / high, 1, 1 - below / high))
+            layout: Any = drawn.get_layout_engine()
+            layout.set(rect=(0, below / high, 1, 1 - below / high))
     return drawn
 
 

@@ -240,7 +240,7 @@ const libraryText = (text) => text.replace(/\\(.)|([_^])(?:\{([^}]*)\}|(.))/gu, 
   .replace(/(\d) (?=(?:[afpnµmkMG]?(?:m|N|Pa|J)|%)(?:[²\s,;.)]|$))/gu, `$1${NARROW}`)
   .replace(/(?<![\p{L}\d‹]|\d[\s\u202f])[pFūlhKEGuvWγCqH](?![\p{L}\d›])/gu, "‹$&›");
 
-const libraryAxis = (axis, fixed) => ({label: libraryText(axis.label), unit: axis.unit || "1", log: axis.logarithmic, fixed, ...(axis.high === undefined ? {} : {limits: [axis.low, axis.high]})});
+const libraryAxis = (axis, fixed) => ({label: libraryText(axis.label), unit: axis.unit || "1", log: axis.logarithmic, fixed, ...(known(axis.prefix_of) ? {values: () => [axis.prefix_of]} : {}), ...(axis.high === undefined ? {} : {limits: [axis.low, axis.high]})});
 
 /** A value with its unit, in words for the pointer and for screen readers. */
 const worded = (axis, value) => `${libraryText(axis.label)} ${quantity(value, axis.unit || "1", 4)}`;
@@ -282,8 +282,8 @@ function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
       }),
       shapes: [...ranges.map(({low, high, vertical}) => ({type: "rect", ...(vertical ? {x0: low, x1: high, y0: 0, y1: 1, yref: "paper"} : {y0: low, y1: high, x0: 0, x1: 1, xref: "paper"}), fillcolor: faint("vermilion", 0.1), line: {width: 0}, layer: "below"})),
         ...lines.map(({at, vertical}) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: {color: color("muted"), width: 1.5, dash: "dash"}}))],
-      annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12},
-        ...(vertical ? {x: at ?? (low + high) / 2, y: 1, yref: "paper", yanchor: "top"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
+      annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12}, bgcolor: faint("raised", 0.8),
+        ...(vertical ? {x: at ?? low, y: 1, yref: "paper", yanchor: "top", xanchor: (at ?? low) > (x.logarithmic ? Math.sqrt(x.low * x.high) : (x.low + x.high) / 2) ? "right" : "left"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
     }),
   };
 }

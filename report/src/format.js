@@ -8,9 +8,9 @@ const NARROW = "\u202f";  // between a number and its unit
 const known = (value) => typeof value === "number" && Number.isFinite(value);
 
 // Units with a power of a base unit: the power to which a prefix is raised, and the unit with a prefix.
-const POWERS = {"m^2": [2, (p) => `${p}m²`], "1/m^2": [-2, (p) => `1/${p}m²`], "1/m": [-1, (p) => `1/${p}m`]};
+const POWERS = {"m^2": [2, (p) => `${p}m²`], "1/m^2": [-2, (p) => `1/${p}m²`], "1/m": [-1, (p) => `1/${p}m`], "rad/m": [-1, (p) => `rad/${p}m`]};
 // Units that take no prefix: their numbers are written with a power of ten.
-const BARE = {"m^4": "m⁴", "rad/m": "rad/m", "1": ""};
+const BARE = {"m^4": "m⁴", "m^3": "m³", "1": ""};
 
 /** Returns {factor, label}: value·factor is in units of label, and the largest of the values has one to three digits before the point. */
 function scaleFor(values, unit) {

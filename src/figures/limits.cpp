@@ -69,12 +69,16 @@ Figure with_limits(Figure figure) {
   // A quantity has one unit in all panels: that of its headline or else of its largest number.
   for (const auto& [quantity, axes] : same) {
     std::optional<double> value;
-    double largest = 0;
+    double least = HUGE_VAL, largest = 0;
     for (const Axis* axis : axes) {
+      least = std::min(least, *axis->low);
       largest = std::max({largest, std::abs(*axis->low), std::abs(*axis->high)});
       if (axis->prefix_of) value = axis->prefix_of;
     }
-    if (!value && !std::ranges::all_of(axes, &Axis::logarithmic)) value = largest;
+    // The middle of a logarithmic axis has the short numbers.
+    if (!value)
+      value = std::ranges::all_of(axes, &Axis::logarithmic) ? std::sqrt(least) * std::sqrt(largest)
+                                                            : largest;
     for (Axis* axis : axes) axis->prefix_of = value;
   }
   char letter = 'a';

@@ -856,6 +856,22 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK(std::count(without.err.begin(), without.err.end(), '\n') == 1);
   CHECK(without.out.empty());
   test.done(law + "--normal-amplitude 50nm", "PATH=/nowhere;");
+  // A headline says what the answer says of its validity.
+  const std::string slow = std::regex_replace(law, std::regex("1mm/s"), "1um/s");
+  for (const std::string excursion : {"10nm", "1mm"}) {
+    const json answer = json::parse(
+        test.done(slow +
+                  "--normal-amplitude 1:50nm:6 --friction-coefficient 0.3 --plot v.json "
+                  "--overwrite --excursion " +
+                  excursion)
+            .out);
+    const std::string title = json::parse(test.read("v.json"))["panels"][1]["title"];
+    CAPTURE(title, answer["validity"].dump());
+    CHECK((title.find("not valid") != title.npos) == (answer["validity"] == "not valid"));
+    CHECK((answer["validity"] == "not valid") == (excursion == "1mm"));
+    CHECK_THAT(title, Contains("(b) γ = "));
+  }
+  std::filesystem::remove(test.folder() / "v.json");
   CHECK(test.files() == "curve.svg cycle.png");
 }
 

@@ -7,6 +7,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/bearing.hpp>
@@ -75,7 +76,7 @@ TEST_CASE("A curve that follows the exponential law lies on its fit in every pan
   fit.decay_length_high = 21e-9;
   fit.window = {curve.samples.back().pressure, curve.samples.front().pressure};
   const Figure figure = figure_of(curve, fit);
-  CHECK_THAT(figure.panels[0].title, Contains("20 nm (19 … 21)"));
+  CHECK_THAT(figure.panels[0].title, Contains("20 nm (19 … 21)") && !Contains("do not use"));
   const ShadedRange& window = figure.panels[0].ranges.at(0);
   CHECK(window.low == Approx(curve.samples.front().mean_gap));
   CHECK(window.high == Approx(curve.samples.back().mean_gap));
@@ -98,6 +99,9 @@ TEST_CASE("A curve that follows the exponential law lies on its fit in every pan
   fit.decay_length *= 2;
   const Figure wrong = figure_of(curve, fit);
   CHECK(std::abs(wrong.panels.back().curves.at(0).y.front()) > 10);
+  // A law that is far from the curve at the ends of the window is not to be used.
+  fit.window.points = curve.samples.size();
+  CHECK_THAT(figure_of(curve, fit).panels[0].title, Contains("do not use Eq. (16)"));
 }
 
 TEST_CASE("The 95 % interval of a spectrum holds the law of most rings", "[figures]") {
@@ -216,6 +220,49 @@ TEST_CASE("Limits hold what is drawn, do not magnify a constant, and a quantity 
   // Newtons, as along the axis of the loop.
   CHECK(out.panels[1].x.prefix_of == out.panels[2].y.prefix_of);
   CHECK(*out.panels[1].x.prefix_of == *out.panels[2].y.high);
+}
+
+TEST_CASE("Panels have letters in order, their sentences become the caption, and details go first",
+          "[figures]") {
+  Figure figure{.caption = "Two curves."};
+  for (const char* title : {"first", "", "third"})
+    figure.panels.push_back({.title = title,
+                             .caption = std::string(title) + " panel.",
+                             .curves = {{.x = {1, 2}, .y = {1, 2}}}});
+  figure.panels[2].detail = true;
+  const Figure all = with_limits(figure);
+  CHECK(all.panels[0].title == "(a) first");
+  CHECK(all.panels[1].title == "(b)");
+  CHECK(all.caption == "Two curves. (a) first panel. (b)  panel. (c) third panel.");
+  // JSON and pictures may ask again.
+  CHECK(figure_json(all) == figure_json(figure));
+  const Figure narrow = for_width(figure, 0.085);
+  CHECK(narrow.panels.size() == 2);
+  CHECK_THAT(narrow.caption, !Contains("third"));
+  CHECK(for_width(figure, 0.17).panels.size() == 3);
+  figure.panels.resize(1);
+  CHECK(with_limits(figure).panels[0].title == "first");
+  CHECK(with_limits(figure).caption == "Two curves. first panel.");
+}
+
+TEST_CASE("A headline says that its result is not valid, and why", "[figures]") {
+  Figure figure;
+  for (const char* title : {"γ = 14.1 N s/m", "no headline"})
+    figure.panels.push_back({.title = title, .curves = {{.x = {1, 2}, .y = {1, 2}}}});
+  Assumptions sliding;
+  sliding.regime = Regime::sliding;
+  Figure stated = figure;
+  state_validity(stated, std::vector{sliding}, true);
+  CHECK(stated.panels[0].title == "γ = 14.1 N s/m (not valid: Coulomb friction, not a damper)");
+  CHECK(stated.panels[1].title == "no headline");
+  Assumptions flowing;
+  flowing.plasticity.verdict = Verdict::broken;
+  flowing.plasticity.value = 2;
+  stated = figure;
+  state_validity(stated, std::vector{flowing}, true);
+  CHECK(stated.panels[0].title == "γ = 14.1 N s/m (not valid: plasticity)");
+  state_validity(figure, std::vector{Assumptions{}}, true);
+  CHECK(figure.panels[0].title == "γ = 14.1 N s/m");
 }
 
 TEST_CASE("The maps of a surface of a study hold its values where its points are", "[figures]") {

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <salebra/base/error.hpp>
 #include <sstream>
 
@@ -266,6 +267,15 @@ TEST_CASE("A logarithmic axis has more than one number, and its lines stay in it
   panel.lines = {{.at = 5e3}, {.at = 7e-9, .vertical = true}, {.at = 5e4}};
   const std::string script = gnuplot_script(figure, PictureFormat::svg);
   CHECK_THAT(script, Contains("'0.2'") && Contains("'1'") && Contains("'5'"));
+  for (const auto& [low, high] : {std::pair(1.2e3, 1.9e3), {9e2, 4e5}, {2.1e3, 2.2e3}, {3e-9, 8}}) {
+    panel.y.low = low, panel.y.high = high;
+    const std::string narrow = gnuplot_script(figure, PictureFormat::svg, 0.085);
+    const auto from = narrow.find("set ytics (");
+    const std::string tics = narrow.substr(from, narrow.find('\n', from) - from);
+    CAPTURE(tics);
+    static const std::regex labelled("'[^']+'");
+    CHECK(std::distance(std::sregex_iterator(tics.begin(), tics.end(), labelled), {}) >= 2);
+  }
   CHECK_THAT(script, Contains("graph 0,first 0.698970004 to") && Contains("first 7,graph 0 to"));
   CHECK_THAT(script, !Contains("first 1.69897"));
 }
