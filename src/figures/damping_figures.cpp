@@ -134,27 +134,27 @@ Figure figure_of(const IndenterLaw& law, double indentation) {
   }
   Figure figure{.kind = "indenter",
                 .caption =
-                    "An axisymmetric indenter at rest, its one-dimensional image on "
-                    "independent springs, the pressure and the force.",
+                    "(a) An axisymmetric indenter at rest, (b) its one-dimensional image on "
+                    "independent springs, (c) the pressure and (d) the force.",
                 .columns = 2};
   const Axis height = {.label = "height", .unit = "m"};
-  figure.panels.push_back({.title = "(a) contact with the half-space",
+  figure.panels.push_back({.title = "contact with the half-space",
                            .x = {.label = "r", .unit = "m"},
                            .y = height,
                            .legend = Legend::bottom_right});
   figure.panels.back().curves = {surface, body};
   figure.panels.push_back(
-      {.title = "(b) one-dimensional image, Eq. (3)",
+      {.title = "one-dimensional image, Eq. (3)",
        .x = {.label = "x", .unit = "m"},
        .y = {.label = "height", .unit = "m", .low = -1.5 * indentation, .high = 1.8 * indentation},
        .legend = Legend::top_left});
   figure.panels.back().curves = {coils_of(law, indentation), springs, image};
-  figure.panels.push_back({.title = "(c) pressure",
+  figure.panels.push_back({.title = "pressure",
                            .x = {.label = "r", .unit = "m"},
                            .y = {.label = "p", .unit = "Pa", .low = 0}});
   figure.panels.back().curves = {pressure};
   figure.panels.push_back(
-      {.title = "(d) force, F = " + format_quantity(law.force(indentation), Dimension::force, 3),
+      {.title = "force, F = " + format_quantity(law.force(indentation), Dimension::force, 3),
        .x = {.label = "indentation δ", .unit = "m"},
        .y = {.label = "F", .unit = "N"}});
   figure.panels.back().curves = {
@@ -166,8 +166,8 @@ Figure figure_of(const IndenterLaw& law, double indentation) {
 Figure figure_of(const SampledMotion& path, const TrajectoryDamping& loss) {
   Figure figure{.kind = "motion",
                 .caption =
-                    "One period of the motion: the path of a point of the body, the "
-                    "tangential force over the displacement, and the energy lost.",
+                    "One period of the motion: (a) the path of a point of the body, (b) the "
+                    "tangential force over the displacement, and (c) the energy lost.",
                 .columns = 3};
   figure.panels.push_back(path_panel(path));
   figure.panels.push_back(
@@ -370,7 +370,7 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
           ", δ = " + format_quantity(indentation, Dimension::length, 4) + ".",
       .columns = 2};
   Panel& shear = figure.panels.emplace_back();
-  shear.title = "(a) tangential stress τ";
+  shear.title = "tangential stress τ";
   shear.x = radius;
   shear.y = time;
   shear.image = Image{.x = map.radial_position,
@@ -381,9 +381,9 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
   shear.curves.push_back(edge);
 
   figure.panels.push_back(
-      section_of(stress, pi / 3, most, limit, "(b) τ(r) while pulling out, ωt/2π = 1/6"));
+      section_of(stress, pi / 3, most, limit, "τ(r) while pulling out, ωt/2π = 1/6"));
   Panel& pressure = figure.panels.emplace_back();
-  pressure.title = "(c) pressure p";
+  pressure.title = "pressure p";
   pressure.x = radius;
   pressure.y = time;
   pressure.image = Image{.x = map.radial_position,
@@ -392,7 +392,7 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
                          .scale = {.label = "p", .unit = "Pa"}};
   pressure.curves.push_back(edge);
   figure.panels.push_back(
-      section_of(stress, -pi / 3, most, limit, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
+      section_of(stress, -pi / 3, most, limit, "τ(r) while pressing in, ωt/2π = −1/6"));
   figure.panels[0].lines = {{.at = 1.0 / 6, .name = "(b)"}, {.at = -1.0 / 6, .name = "(d)"}};
   return figure;
 }
@@ -401,7 +401,7 @@ Figure figure_of(const FrictionMap& map) {
   const Axis number = {
       .quantity = "friction_number", .label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
   Panel panel, missing, parts;
-  panel.title = "(a) W(μ) / W(∞)";
+  panel.title = "W(μ) / W(∞)";
   panel.x = number;
   panel.y = {.label = "phase φ_0 (°)"};
   panel.image =
@@ -411,7 +411,7 @@ Figure figure_of(const FrictionMap& map) {
             .scale = {.quantity = "loss_ratio", .label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
             .contours = {0.5, 0.9, 0.95, 0.99}};
 
-  missing.title = "(b) how far the result for μ = ∞ is off";
+  missing.title = "how far the result for μ = ∞ is off";
   missing.x = number;
   missing.y = {.label = "|1 − W(μ) / W(∞)|", .logarithmic = true, .low = 1e-4, .high = 2};
   missing.legend = Legend::top_right;
@@ -437,7 +437,7 @@ Figure figure_of(const FrictionMap& map) {
     missing.curves.push_back(curve);
   }
   const Index j = columns.back();
-  parts.title = fmt::format("(c) parts of the loss at φ_0 = {:.0f}°",
+  parts.title = fmt::format("parts of the loss at φ_0 = {:.0f}°",
                             map.phase[static_cast<std::size_t>(j)] * degrees);
   Curve relaxation{.name = "springs that open", .x = map.friction_number};
   Curve slip{.name = "slip in permanent contact", .x = map.friction_number};
@@ -481,6 +481,7 @@ Panel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
       panel.title =
           fmt::format("Steady sliding is stable where γ > b = {:.4g} N s/m", *falling_slope);
       panel.image->contours = {*falling_slope};
+      panel.image->scale.prefix_of = 1;  // contours are labelled in N s/m
     }
     return panel;
   }
