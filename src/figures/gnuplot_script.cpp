@@ -454,11 +454,15 @@ class PanelScript {
       add_entry(mark->name, fmt::format("NaN with lines dt {} lw 1 lc '#404040'", dash_of(*mark)));
   }
 
-  void write_axis(const char* name, const DisplayAxis& axis,
+  void write_axis(std::string_view name, const DisplayAxis& axis,
                   const std::vector<std::string>& label) {
-    line("set {}label {}{}", name, literal(label),
-         name == std::string_view("x2") ? " offset 0,-0.5" : "");
-    const bool tight = name[0] == 'x' || panel_.image || name == std::string_view("y2");
+    // gnuplot centres the lines of a label where one line would be, half of them on the numbers.
+    const std::string offset =
+        name == "x2"  ? " offset 0,-0.5"
+        : name == "y" ? fmt::format(" offset {:.2f},0", 1.05 * (1 - double(label.size())))
+                      : "";
+    line("set {}label {}{}", name, literal(label), offset);
+    const bool tight = name != "y" || panel_.image;
     const auto bound = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.9g}", *value) : std::string("*");
     };
