@@ -217,7 +217,7 @@ def _second(ax: Axes, panel: Any, fresh: bool, scales: Any) -> None:
             _scale(child.xaxis if way == "x" else child.yaxis, second, _points(ax, way == "y"), main)
 
 
-def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, scales: Any = None) -> None:
+def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, scales: Any = None, letter: bool = True) -> None:
     """Draws a panel, on axes that may have one already. keywords: style of its map or first curve."""
     drawn = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData)]
     fresh = not drawn and not ax.collections
@@ -252,8 +252,9 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, s
     _scale(ax.xaxis, panel.x, _points(ax, 0))
     _scale(ax.yaxis, panel.y, _points(ax, 1))
     _second(ax, panel, fresh, scales or (panel.second_x, panel.second_y))
-    if panel.title and fresh:
-        ax.set_title(_wrapped(panel.title, _points(ax, 0), ax.title.get_fontsize()))
+    title = panel.title if letter else re.sub(r"^\([a-z]\) ?", "", panel.title)
+    if title and fresh:
+        ax.set_title(_wrapped(title, _points(ax, 0), ax.title.get_fontsize()))
     if legend:
         _legend(ax)
 
@@ -286,7 +287,7 @@ def _plot_panel(figure: Any, ax: Axes | None, panel: int | str, keywords: dict[s
         names = ", ".join(f"{k} {name}".strip() for k, name in enumerate(named))
         raise refusal("panel", repr(panel), f"is none of the panels of this figure: {names}")
     drawn = _new(True).add_subplot() if ax is None else ax
-    _panel(drawn, panels[number], keywords)
+    _panel(drawn, panels[number], keywords, letter=False)
     return drawn
 
 

@@ -64,7 +64,6 @@ std::string verdict_of(const ForceCurve& curve, const ExponentialFit& fit) {
 void add_fit(Panel& panel, const ForceCurve& curve, const ExponentialFit& fit) {
   const double low = fit.window.pressure_min, high = fit.window.pressure_max;
   panel.title = decay_length_text(fit) + verdict_of(curve, fit);
-  panel.x.prefix_of = fit.decay_length;
   panel.curves.push_back({.name = "p_0 e^{−ū/l}",
                           .quantity = "pressure",
                           .x = {gap_of(fit, high), gap_of(fit, low)},
@@ -82,6 +81,7 @@ Panel local_panel(const LocalDecayLength& local, const std::optional<Exponential
   panel.curves.push_back(
       {.x = local.mean_gap, .y = local.decay_length, .style = Style::line_and_points});
   if (fit) {
+    panel.y.prefix_of = fit->decay_length;
     panel.lines.push_back(
         {.at = fit->decay_length, .name = "l of the fit", .quantity = "decay_length"});
     panel.ranges.push_back(window_of(*fit));

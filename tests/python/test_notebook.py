@@ -388,7 +388,7 @@ def test_a_curve_is_drawn_with_its_fit(objects: dict[str, Any]) -> None:
     curve = salebra.ForceCurve(1e-6, mean_gap=gap, pressure=1e9 * np.exp(-gap / 4e-7), rms_height=1e-6)
     axes = curve.plot()
     points, law = axes.get_lines()
-    assert points.get_label() == "measured" and axes.get_title().startswith("decay length l = 400 nm")
+    assert points.get_label() == "measured" and axes.get_title().replace("\u00a0", " ").startswith("decay length l = 400 nm")
     assert np.array_equal(points.get_xdata(), gap[::-1]) and len(law.get_xdata()) == 2
     assert np.allclose(law.get_ydata(), 1e9 * np.exp(-np.asarray(law.get_xdata()) / 4e-7), rtol=1e-9)
     assert len(curve.plot(fit=False).get_lines()) == 1

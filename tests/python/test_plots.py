@@ -180,7 +180,7 @@ def test_pictures_for_a_journal_have_its_width_and_text_as_text(tmp_path: Path, 
     figure.save(tmp_path / "a.json")
     drawn = (tmp_path / "a.svg").read_text()
     assert float(re.search(r'width="([\d.]+)pt"', drawn)[1]) == pytest.approx(85 / 25.4 * 72, rel=1e-4)
-    assert ">mean gap ū (nm)</text>" in drawn and "<script" not in drawn
+    assert ">mean gap ū (µm)</text>" in drawn and "<script" not in drawn
     assert b"/FontFile2" in (tmp_path / "a.pdf").read_bytes()
     assert (tmp_path / "a.json").read_text() == figure.json()
     check("loaded", figure_of(tmp_path / "a.json"), COLUMN)
