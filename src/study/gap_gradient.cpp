@@ -23,9 +23,9 @@ void GapGradient::solve(const Surface& surface, const Body& body,
     Field punch;
     if (state.contact_area_fraction == 1) return;
     // The response is linear in the error of w, while K and the gap are quadratic in theirs.
-    const PunchStiffness found =
-        punch_stiffness(contact_set(state), surface.grid, body,
-                        {.tolerance = std::sqrt(options.tolerance), .on_progress = options.on_progress}, &punch);
+    const PunchStiffness found = punch_stiffness(
+        contact_set(state), surface.grid, body,
+        {.tolerance = std::sqrt(options.tolerance), .on_progress = options.on_progress}, &punch);
     if (!found.converged()) return;
     contact.sample.normal_stiffness = found.normal_stiffness;
     const double sum = punch.sum();
