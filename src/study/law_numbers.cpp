@@ -101,16 +101,16 @@ LawNumbers::LawNumbers(const Surface& surface, const StudyConfiguration& configu
 }
 
 BoundaryElementNumbers::OfSurface LawNumbers::numbers(const StudyConfiguration& configuration,
-                                                      const std::vector<double>& gap_change,
-                                                      double area_shift, bool coarser) const {
+                                                      const Change& change, bool coarser) const {
   const auto& contacts = gradient_.contacts();
   const auto count = Index(contacts.size());
   Eigen::ArrayXd loads(count);
   Eigen::VectorXd gaps(count), areas(count);
   for (Index k = 0; k < count; ++k) {
     const ForceSample& sample = contacts[std::size_t(k)].sample;
-    loads(k) = std::log(sample.force);
-    gaps(k) = sample.mean_gap + gap_change[std::size_t(k)];
+    loads(k) = std::log(change.force_factor * sample.force);
+    gaps(k) = change.gap_factor * sample.mean_gap;
+    if (!change.gap_change.empty()) gaps(k) += change.gap_change[std::size_t(k)];
     areas(k) = std::log(sample.contact_area_fraction);
   }
   const Index degree = std::min(max_degree, (count - 1) * 3 / 5) - (coarser ? 2 : 0);
@@ -151,7 +151,7 @@ BoundaryElementNumbers::OfSurface LawNumbers::numbers(const StudyConfiguration& 
       }
     const std::array<double, BoundaryElementNumbers::outputs.size()> values{
         value,
-        std::exp(area.at(known ? load - area_shift : unknown).value),
+        std::exp(area.at(known ? load : unknown).value),
         -force / slope,
         -modulus_ratio_ * force / slope,
         loss.work_per_cycle,

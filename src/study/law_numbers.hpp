@@ -25,12 +25,16 @@ class LawNumbers {
              const Progress& progress);
 
   const GapGradient& gradient() const { return gradient_; }
-  // Numbers at the pressures and with the motion of a configuration if at given forces the gaps of
-  // the contacts change by gap_change, m, and ln A as if the forces fell by the factor exp(area_shift).
-  // coarser: with a polynomial of two degrees less, whose results show the error of the fit.
+  // What becomes of the contacts, without new ones: their forces and gaps are multiplied by factors,
+  // which similarity gives, and the gaps change by amounts, m, which the response of the gap gives.
+  struct Change {
+    double force_factor = 1, gap_factor = 1;
+    std::vector<double> gap_change = {};
+  };
+  // Numbers at the pressures and with the motion of a configuration. coarser: with polynomials of two
+  // degrees less, whose results show the error of the fit.
   BoundaryElementNumbers::OfSurface numbers(const StudyConfiguration& configuration,
-                                            const std::vector<double>& gap_change,
-                                            double area_shift, bool coarser) const;
+                                            const Change& change, bool coarser) const;
 
  private:
   GapGradient gradient_;

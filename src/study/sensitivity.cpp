@@ -179,20 +179,9 @@ class SurfaceSides {
 
   /// Writes the numbers of this surface into the sides of a change.
   void put(const Change& change, Sides& sides) const {
-    const auto& contacts = law_.gradient().contacts();
-    std::vector<double> response(contacts.size(), 0.0);
+    std::vector<double> response;
     std::vector<std::vector<double>> areas;
-    double area_shift = 0;
-    if (change.kind == Change::Of::scale) {
-      // The contacts of (sh, E*, sF) and of (h, sE*, sF) have the sets of (h, E*, F); their gaps are
-      // s times, and once, that of it.
-      area_shift = 1;
-      for (std::size_t k = 0; k < contacts.size(); ++k) {
-        const ForceSample& sample = contacts[k].sample;
-        response[k] =
-            (change.surface ? sample.mean_gap : 0) + sample.force / sample.normal_stiffness;
-      }
-    } else if (change.kind == Change::Of::shape) {
+    if (change.kind == Change::Of::shape) {
       Field slope = Field::Zero(surface_.grid.nx, surface_.grid.ny);
       for (std::size_t side = 0; side < sides.size(); ++side) {
         const Surface changed = this->changed(change, sides[side].area_step);
@@ -204,10 +193,16 @@ class SurfaceSides {
     }
     for (std::size_t side = 0; side < sides.size(); ++side) {
       const double step = sides[side].step;
-      std::vector<double> gap_change = response;
-      for (double& one : gap_change) one *= step;
+      LawNumbers::Change contacts;
+      for (const double one : response) contacts.gap_change.push_back(step * one);
+      // The contacts of (sh, E*, sF) and of (h, sE*, sF) have the sets of (h, E*, F), and their gaps
+      // are s times that of it, and the same.
+      if (change.kind == Change::Of::scale) {
+        contacts.force_factor = std::exp(step);
+        if (change.surface) contacts.gap_factor = contacts.force_factor;
+      }
       auto& numbers = sides[side].surfaces[index_];
-      numbers = law_.numbers(change.configuration(step), gap_change, step * area_shift, side >= 2);
+      numbers = law_.numbers(change.configuration(step), contacts, side >= 2);
       if (!areas.empty()) numbers[Side::area_output] = areas[side];
     }
   }
