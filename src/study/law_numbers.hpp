@@ -31,10 +31,14 @@ class LawNumbers {
     double force_factor = 1, gap_factor = 1;
     std::vector<double> gap_change = {};
   };
-  // Numbers at the pressures and with the motion of a configuration. coarser: with polynomials of two
-  // degrees less, whose results show the error of the fit.
+  // Fits that show the error of the law: with polynomials of fewer degrees, or without each contact
+  // number `omitted`, `omitted` + 4, … between the ends.
+  struct Fit {
+    Index fewer_degrees = 0, omitted = 4;
+  };
+  // Numbers at the pressures and with the motion of a configuration.
   BoundaryElementNumbers::OfSurface numbers(const StudyConfiguration& configuration,
-                                            const Change& change, bool coarser) const;
+                                            const Change& change, const Fit& fit) const;
 
  private:
   GapGradient gradient_;

@@ -151,13 +151,14 @@ EnsembleMean derivative(const std::vector<double>& above, const std::vector<doub
 /// steps; contact areas need steps over which cells enter.
 struct Side {
   double step = 0, area_step = 0;  ///< of ln θ
+  LawNumbers::Fit fit = {};
   std::vector<BoundaryElementNumbers::OfSurface> surfaces = {};
 
   double step_of(std::size_t output) const { return output == area_output ? area_step : step; }
   static constexpr std::size_t area_output = 1;
 };
-/// Both sides of a value; of a single surface a second pair, whose difference to the first one is the
-/// error.
+/// Pairs of both sides of a value: one and, of a single surface, more that show its error. The second
+/// pair has twice the step or a law of fewer degrees; the others have laws without some contacts.
 using Sides = std::vector<Side>;
 
 constexpr double law_step = 1e-3;
@@ -183,7 +184,7 @@ class SurfaceSides {
     std::vector<std::vector<double>> areas;
     if (change.kind == Change::Of::shape) {
       Field slope = Field::Zero(surface_.grid.nx, surface_.grid.ny);
-      for (std::size_t side = 0; side < sides.size(); ++side) {
+      for (std::size_t side = 0; side < std::min<std::size_t>(sides.size(), 4); ++side) {
         const Surface changed = this->changed(change, sides[side].area_step);
         // Of amplitudes that change by the factor e^s this is the slope at any s.
         if (side < 2) slope += changed.heights / (2 * std::sinh(sides[side].area_step));
@@ -202,8 +203,8 @@ class SurfaceSides {
         if (change.surface) contacts.gap_factor = contacts.force_factor;
       }
       auto& numbers = sides[side].surfaces[index_];
-      numbers = law_.numbers(change.configuration(step), contacts, side >= 2);
-      if (!areas.empty()) numbers[Side::area_output] = areas[side];
+      numbers = law_.numbers(change.configuration(step), contacts, sides[side].fit);
+      if (!areas.empty()) numbers[Side::area_output] = areas[side < 4 ? side : side % 2];
     }
   }
 
@@ -237,11 +238,17 @@ std::vector<Sides> sides_of(const BoundaryElementNumbers& study, const std::vect
                             bool by_law, double step) {
   Sides sides;
   const auto surfaces = std::size_t(study.surfaces());
-  for (const double factor : {1.0, -1.0, 2.0, -2.0})
-    sides.push_back({.step = by_law ? std::copysign(law_step, factor) : factor * step,
-                     .area_step = factor * step,
-                     .surfaces = std::vector<BoundaryElementNumbers::OfSurface>(surfaces)});
-  if (surfaces > 1) sides.resize(2);
+  const auto add = [&](double factor, const LawNumbers::Fit& fit) {
+    for (const double side : {factor, -factor})
+      sides.push_back({.step = by_law ? std::copysign(law_step, side) : side * step,
+                       .area_step = side * step,
+                       .fit = fit,
+                       .surfaces = std::vector<BoundaryElementNumbers::OfSurface>(surfaces)});
+  };
+  add(1, {});
+  if (surfaces == 1) add(2, {.fewer_degrees = 2});
+  if (surfaces == 1 && by_law)
+    for (Index omitted = 0; omitted < 4; ++omitted) add(1, {.omitted = omitted});
   std::vector<Sides> all(changes.size(), sides);
   if (by_law) {
     for (std::size_t c = 0; c < changes.size(); ++c)
@@ -281,8 +288,11 @@ EnsembleMean derivative(const Sides& sides, std::size_t output, std::size_t pres
   };
   EnsembleMean slope = slope_of(0);
   if (sides.size() > 2) {
-    const double error = std::abs(slope_of(2).mean - slope.mean);
-    slope.low = slope.mean - error, slope.high = slope.mean + error;
+    // Twice the standard error of a jackknife of four groups, √(3/4 Σ(rⱼ − r)²).
+    double square = std::pow(slope_of(2).mean - slope.mean, 2);
+    for (std::size_t pair = 4; pair < sides.size(); pair += 2)
+      square += 3 * std::pow(slope_of(pair).mean - slope.mean, 2);
+    slope.low = slope.mean - std::sqrt(square), slope.high = slope.mean + std::sqrt(square);
   }
   return slope;
 }
