@@ -152,9 +152,10 @@ struct SensitivityOptions {
 /// damping_constant; those that are not known are left out.
 /// throws  InvalidInput for a parameter grid, adhesion, an option out of range, and wherever
 ///         run_study() does
-/// cost    by laws 1.5 to 2.6 times as many contacts as the study: 10 to 30 for a surface and, for
-///         each load, two for each parameter of shape and octave (four for one surface); otherwise two
-///         studies for each parameter and octave (four for one surface)
+/// cost    by laws 0.7 to 2.6 times the study, and 3.4 times with slip in an oscillation: 10 to 30
+///         contacts with K for a surface and, for each load, two contacts without K for each parameter
+///         of shape and octave (four for one surface); otherwise two studies for each parameter and
+///         octave (four for one surface)
 StudySensitivity study_sensitivity(const StudyConfiguration& configuration,
                                    const SensitivityOptions& options = {});
 
