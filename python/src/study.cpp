@@ -458,8 +458,10 @@ progress : bool or callable
       nb::arg("waves") = true, nb::arg("progress") = false,
       R"(How the results of a study by boundary elements respond to its parameters, with 95 % intervals.
 
-The same surfaces are computed with each parameter θ multiplied by e^step and e^−step; d ln output/d ln θ is the difference of the logarithms
-of the means, over 2·step. The intervals are those over the surfaces and contain the noise of single cells.
+On half-spaces without plasticity they follow from the law of each surface and the response of its gap to changes of the heights, without
+further contacts; only the area needs contacts of the same surfaces with each parameter of their shape multiplied by e^step and e^−step. The
+intervals are those over the surfaces. For tangential stiffness and damping they contain 0.04 for the response of K_t/K, which is left out.
+Otherwise the whole study is computed with each parameter multiplied by e^step and e^−step.
 
 Parameters
 ----------

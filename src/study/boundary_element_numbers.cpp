@@ -64,35 +64,45 @@ void BoundaryElementNumbers::set_seeds(std::vector<std::uint64_t> seeds) {
   seeds_ = std::move(seeds);
 }
 
-std::vector<std::vector<BoundaryElementNumbers::OfSurface>> BoundaryElementNumbers::of(
-    const std::vector<StudyVariant>& variants) const {
-  if (variants.empty()) return {};
-  std::vector<std::vector<OfSurface>> numbers(variants.size(),
-                                              std::vector<OfSurface>(seeds_.size()));
-  const auto tasks = Index(variants.size() * seeds_.size());
+Surface BoundaryElementNumbers::surface(const StudyConfiguration& configuration,
+                                        std::uint64_t seed) const {
+  return measured_ ? *measured_ : study_surface(configuration, seed);
+}
+
+bool BoundaryElementNumbers::run(
+    std::size_t tasks,
+    const std::function<void(std::size_t task, const Progress& going_on)>& task) const {
   TaskLoop loop({.at_once = 0, .communicator = {}, .talk = [&] {
                    return !progress_ ||
                           progress_({.stage = "surfaces",
                                      .fraction = double(loop.finished()) / double(tasks),
                                      .step = loop.finished()});
                  }});
-  const auto compute = [&](Index task) {
-    const std::size_t v = std::size_t(task) / seeds_.size(), s = std::size_t(task) % seeds_.size();
-    StudyConfiguration configuration = variants[v].configuration;
-    put_second(configuration, seeds_[s]);
-    Surface surface = measured_ ? *measured_ : study_surface(configuration, seeds_[s]);
-    if (variants[v].surface) surface = variants[v].surface(std::move(surface));
-    const Progress going_on = [&](const ProgressReport&) { return loop.going_on(); };
-    numbers[v][s] = numbers_of(analyse_realisation(std::move(surface), configuration, seeds_[s],
-                                                   configuration.pressures, going_on));
-  };
+  const Progress going_on = [&](const ProgressReport&) { return loop.going_on(); };
   try {
-    loop.run(tasks, compute);
+    loop.run(Index(tasks), [&](Index turn) { task(std::size_t(turn), going_on); });
   } catch (const Interrupted&) {
-    return {};
+    return false;
   }
-  if (loop.stopped()) return {};
-  return numbers;
+  return !loop.stopped();
+}
+
+std::vector<std::vector<BoundaryElementNumbers::OfSurface>> BoundaryElementNumbers::of(
+    const std::vector<StudyVariant>& variants) const {
+  if (variants.empty()) return {};
+  std::vector<std::vector<OfSurface>> numbers(variants.size(),
+                                              std::vector<OfSurface>(seeds_.size()));
+  const bool finished =
+      run(variants.size() * seeds_.size(), [&](std::size_t task, const Progress& going_on) {
+        const std::size_t v = task / seeds_.size(), s = task % seeds_.size();
+        StudyConfiguration configuration = variants[v].configuration;
+        put_second(configuration, seeds_[s]);
+        Surface surface = this->surface(configuration, seeds_[s]);
+        if (variants[v].surface) surface = variants[v].surface(std::move(surface));
+        numbers[v][s] = numbers_of(analyse_realisation(std::move(surface), configuration, seeds_[s],
+                                                       configuration.pressures, going_on));
+      });
+  return finished ? numbers : std::vector<std::vector<OfSurface>>{};
 }
 
 }  // namespace salebra::detail

@@ -37,6 +37,12 @@ class BoundaryElementNumbers {
   void set_seeds(std::vector<std::uint64_t> seeds);
   const std::vector<std::uint64_t>& seeds() const { return seeds_; }
 
+  // The surface of a seed with a configuration.
+  Surface surface(const StudyConfiguration& configuration, std::uint64_t seed) const;
+  // Runs tasks in parallel, each with a progress that says whether to go on. Returns false if the
+  // progress of the study said stop.
+  bool run(std::size_t tasks,
+           const std::function<void(std::size_t task, const Progress& going_on)>& task) const;
   // Numbers of each surface (second index) of each variant; those of contacts that did not converge
   // are NaN. Empty if progress says stop, or without variants. In parallel over all; same bits for any number of threads.
   std::vector<std::vector<OfSurface>> of(const std::vector<StudyVariant>& variants) const;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/study/design.hpp>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "contact/half_space/half_space.hpp"
+#include "study/boundary_element_numbers.hpp"
 
 using namespace salebra;
 
@@ -102,8 +104,7 @@ TEST_CASE("Responses to heights, loads, amplitudes and moduli obey the laws of s
       return slope(found, parameter, output, k);
     };
     // h → sh, p → sp, u_z → su_z: lengths across the surface grow, areas and stiffnesses stay; the
-    // loss without slip is that of K_t. Cells enter one by one, and each derivative has noise of
-    // some of them: about 1 % of K and 5 % of the loss over 2s.
+    // loss without slip is that of K_t. The rest is the third derivative over a step of 1e-3.
     for (const auto& [output, power] : {std::pair("mean_gap", 1.0),
                                         {"contact_area_fraction", 0.0},
                                         {"normal_stiffness", 0.0},
@@ -111,23 +112,24 @@ TEST_CASE("Responses to heights, loads, amplitudes and moduli obey the laws of s
                                         {"work_per_cycle", 0.0},
                                         {"damping_constant", 0.0}}) {
       CAPTURE(output);
-      const bool loss = std::string_view(output).starts_with("w") || output[0] == 'd';
       CHECK(of("rms_height", output) + of("pressure", output) + of("normal_amplitude", output) ==
-            Approx(power).margin(loss ? 0.35 : 0.08));
+            Approx(power).margin(1e-3));
       // E* → sE*, p → sp: stresses and stiffnesses grow alike.
       CHECK(of("contact_modulus", output) + of("pressure", output) ==
-            Approx(output[0] == 'm' || output[0] == 'c' ? 0.0 : 1.0).margin(loss ? 0.35 : 0.08));
+            Approx(output[0] == 'm' || output[0] == 'c' ? 0.0 : 1.0).margin(1e-3));
       // All bands of waves together are the heights.
       double sum = 0;
       for (const ParameterSensitivity& one : found.parameters)
         if (one.parameter == "waves")
           for (const OutputSensitivity& band : one.outputs)
             if (band.output == output) sum += band.at_pressures[k].mean;
-      // Each band has noise of its own.
+      // Bands respond by the punch of each contact, all heights by similarity of the smooth law, and
+      // single cells are noise of the former. The area is that of contacts.
       CHECK(sum == Approx(of("rms_height", output))
-                       .margin(output[0] == 'm' ? 0.01
-                               : loss           ? 0.7
-                                                : 0.2));
+                       .margin(output[0] == 'm'                       ? 0.03
+                               : output[0] == 'w' || output[0] == 'd' ? 0.3
+                               : output[0] == 'c'                     ? 0.2
+                                                                      : 0.05));
     }
     // Without slip forces are linear in the tangential motion. The gap does not know it.
     CHECK(of("tangential_amplitude", "work_per_cycle") == Approx(2).margin(1e-9));
@@ -136,6 +138,74 @@ TEST_CASE("Responses to heights, loads, amplitudes and moduli obey the laws of s
     CHECK(of("rms_height", "mean_gap") > 0);
   }
   CHECK_THAT(found.sentence("damping_constant", 1), Catch::Contains("the waves"));
+}
+
+namespace {
+
+// Compares responses by laws with differences between scaled studies of the same surfaces.
+void compare_with_scaled_studies(Index points, std::size_t surfaces, double friction) {
+  std::vector<std::uint64_t> seeds(surfaces);
+  std::iota(seeds.begin(), seeds.end(), 100);
+  StudyConfiguration study = study_of(points, seeds);
+  study.known.friction_coefficient = friction;
+  const StudySensitivity found = study_sensitivity(study, {.waves = false});
+  const detail::BoundaryElementNumbers numbers(study, {});
+  int beyond = 0, count = 0;
+  for (const ParameterSensitivity& one : found.parameters) {
+    const auto parameter = parse_enum<StudyParameter>(one.parameter).value();
+    const auto scaled_by = [&](double step) {
+      return detail::StudyVariant{scaled(numbers.base(), parameter, std::exp(step))};
+    };
+    const auto sides = numbers.of({scaled_by(found.step), scaled_by(-found.step)});
+    REQUIRE(one.outputs.size() == detail::BoundaryElementNumbers::outputs.size());
+    for (std::size_t output = 0; output < one.outputs.size(); ++output)
+      for (std::size_t k = 0; k < found.pressures.size(); ++k) {
+        Eigen::ArrayXd above(surfaces), below(surfaces);
+        for (std::size_t s = 0; s < surfaces; ++s) {
+          above(Index(s)) = sides[0][s][output][k];
+          below(Index(s)) = sides[1][s][output][k];
+        }
+        const double slope = std::log(above.mean() / below.mean()) / (2 * found.step);
+        const Eigen::ArrayXd slopes =
+            (above / above.mean() - below / below.mean()) / (2 * found.step);
+        const auto n = double(surfaces);
+        const EnsembleMean& by_law = one.outputs[output].at_pressures[k];
+        // Half of the 95 % interval, and K_t/K of 0.04 in it; powers have no scatter.
+        const double error = std::hypot(std::sqrt(slopes.square().sum() / n / (n - 1)),
+                                        (by_law.high - by_law.low) / 4, 2e-3);
+        CAPTURE(one.parameter, one.outputs[output].output, k, by_law.mean, slope, error);
+        CHECK(by_law.mean == Approx(slope).margin(4 * error));
+        beyond += std::abs(by_law.mean - slope) > 2 * error;
+        ++count;
+      }
+  }
+  // By chance one of twenty is.
+  CHECK(beyond <= 0.05 * count);
+  CHECK(count >= 168);
+}
+
+}  // namespace
+
+TEST_CASE("Responses by laws are those by differences of studies", "[sensitivity]") {
+  compare_with_scaled_studies(32, 24, ContactParameters::unknown);
+}
+
+TEST_CASE("Responses by laws are those by differences of studies of 50 surfaces",
+          "[.][sensitivity]") {
+  compare_with_scaled_studies(64, 50, GENERATE(ContactParameters::unknown, 0.3));
+}
+
+TEST_CASE("Responses of contacts with plasticity are differences of studies", "[sensitivity]") {
+  StudyConfiguration study = study_of(32, {1, 2});
+  study.known.hardness = 400e6;
+  const StudySensitivity found = study_sensitivity(study, {.waves = false});
+  // Nothing changes if heights, loads, and amplitudes grow alike, but the hardness does not: the
+  // surfaces yield more.
+  double sum = 0;
+  for (const std::string_view parameter : {"rms_height", "pressure", "normal_amplitude"})
+    sum += slope(found, parameter, "mean_gap", 3);
+  CHECK(sum < 0.999);
+  CHECK(sum > 0.9);
 }
 
 TEST_CASE("The response of the mean gap to waves is their mean under the pressure of a flat punch",
@@ -155,12 +225,13 @@ TEST_CASE("The response of the mean gap to waves is their mean under the pressur
       gap += state.mean_gap;
       by_punch += (w * (surface.heights - surface.heights.mean())).sum() / w.sum();
     }
-    // Cells that enter change the slope in second order; a set is one cell off at most.
-    CHECK(slope(found, "rms_height", "mean_gap", k) == Approx(by_punch / gap).epsilon(2e-3));
+    // All heights respond by the slope of the smooth law, without the noise of the cells of one
+    // contact in K; the bands by the punch of each contact, with a smooth law through them.
+    CHECK(slope(found, "rms_height", "mean_gap", k) == Approx(by_punch / gap).epsilon(1e-2));
     double sum = 0;
     for (const ParameterSensitivity& one : found.parameters)
       if (one.parameter == "waves") sum += one.outputs.front().at_pressures[k].mean;
-    CHECK(sum == Approx(by_punch / gap).epsilon(2e-3));
+    CHECK(sum == Approx(by_punch / gap).epsilon(5e-3));
   }
 }
 
