@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assumption_options.hpp"
+#include "indenter_options.hpp"
+#include "options.hpp"
+
+namespace salebra::cli {
+
+struct ViscoelasticArguments {
+  IndenterOptions indenter;
+  MaterialOptions material;
+  MotionOptions motion;
+  OperatingPointOptions point;
+  std::string prony, body_file, hold = "auto";
+  SurfaceOptions surface;
+  std::optional<int> steps, springs;
+  std::optional<double> tolerance;
+  std::vector<double> creep;  ///< times of a held load, s; empty: a motion
+  AssumptionOptions assumptions;
+};
+
+/// `salebra viscoelastic SURFACE --body FILE`: the cycles of a rough contact, or with --creep its
+/// contact over the time.
+void run_on_surface(const ViscoelasticArguments& arguments, Session& session);
+
+}  // namespace salebra::cli
