@@ -14,6 +14,7 @@
 #include "figures/axes.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "several_files.hpp"
 #include "viscoelastic_command.hpp"
 
 namespace salebra::cli {
@@ -67,7 +68,10 @@ std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
   return losses;
 }
 
-void run(const ViscoelasticArguments& arguments, Session& session) {
+void run(ViscoelasticArguments arguments, Session& session) {
+  const std::vector<std::string> files = arguments.surface.several(!arguments.csv.empty());
+  if (!files.empty()) return lose_of_files(std::move(arguments), files, session);
+  require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; give SURFACE");
   if (arguments.surface.given()) return run_on_surface(arguments, session);
   require_tables(session, {"motions"});
   for (const auto& [given, option] : {std::pair(!arguments.body_file.empty(), "--body"),
@@ -149,7 +153,8 @@ void add_viscoelastic_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "losses and complex modulus over the quantity that varies, or the contact over the time",
       OutputCheck::any_name);
-  arguments->surface.add_to(command, false);
+  arguments->surface.add_several_to(command);
+  add_table_file(command, arguments->csv);
   arguments->indenter.add_to(command);
   arguments->point.add_to(command);
   arguments->material.add_to(command);

@@ -22,10 +22,14 @@ struct ViscoelasticArguments {
   std::optional<double> tolerance;
   std::vector<double> creep;  ///< times of a held load, s; empty: a motion
   AssumptionOptions assumptions;
+  std::string csv;  ///< table of several surfaces
 };
 
 /// `salebra viscoelastic SURFACE --body FILE`: the cycles of a rough contact, or with --creep its
 /// contact over the time.
 void run_on_surface(const ViscoelasticArguments& arguments, Session& session);
+/// The losses of each of several surfaces under the same pressure.
+void lose_of_files(ViscoelasticArguments arguments, const std::vector<std::string>& files,
+                   Session& session);
 
 }  // namespace salebra::cli

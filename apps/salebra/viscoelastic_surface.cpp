@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>  // analysis/ has no problem for it
 #include <salebra/figures/figures.hpp>
 #include <salebra/study/body_file.hpp>
+#include <salebra/surface/moments.hpp>
 
 #include "result_tables.hpp"
+#include "several_files.hpp"
 #include "viscoelastic_command.hpp"
 
 namespace salebra::cli {
@@ -55,10 +58,9 @@ RoughContact contact_of(const ViscoelasticArguments& arguments, std::vector<std:
   if (!contact.surface.periodic)
     session.warn("the surface is continued periodically, because it is not stated to repeat");
   const auto pressure = arguments.point.nominal_pressure(contact.surface.grid);
-  contact.point = pressure ? at_pressure(*pressure)
-                  : arguments.point.mean_gap
-                      ? at_mean_gap(*arguments.point.mean_gap)
-                      : at_indentation(*arguments.point.indentation);
+  contact.point = pressure                   ? at_pressure(*pressure)
+                  : arguments.point.mean_gap ? at_mean_gap(*arguments.point.mean_gap)
+                                             : at_indentation(*arguments.point.indentation);
   return contact;
 }
 
@@ -86,11 +88,10 @@ ViscoelasticPath creep_of(const ViscoelasticArguments& arguments, const RoughCon
 }
 
 void creep(const ViscoelasticArguments& arguments, Session& session) {
-  for (const auto& [given, option] :
-       {std::pair(arguments.motion.given(), "options of the motion"),
-        {arguments.hold != "auto", "--hold"},
-        {arguments.tolerance.has_value(), "--tolerance"},
-        {arguments.point.mean_gap.has_value(), "--mean-gap"}})
+  for (const auto& [given, option] : {std::pair(arguments.motion.given(), "options of the motion"),
+                                      {arguments.hold != "auto", "--hold"},
+                                      {arguments.tolerance.has_value(), "--tolerance"},
+                                      {arguments.point.mean_gap.has_value(), "--mean-gap"}})
     require_that(!given, "--creep",
                  std::string("holds a load or an indentation; leave out ") + option);
   require_tables(session, {"creep"});
@@ -126,15 +127,11 @@ std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
       cycles.push_back(
           viscoelastic_cycle(contact.surface, body, relaxation, motion, contact.point, options));
   }
-  if (const auto lost = std::ranges::count_if(
-          cycles, [](const ViscoelasticCycle& one) { return !one.converged(); });
-      lost > 0)
-    throw NotConverged(
-        fmt::format("viscoelastic: {} of {} steady states were not found; allow a larger "
-                    "--tolerance, or leave out relaxation times beyond 1e3 periods",
-                    lost, cycles.size()));
-  if (const auto lost = std::ranges::count_if(
-          cycles, [](const ViscoelasticCycle& one) { return std::isnan(one.work_per_cycle); });
+  if (const auto lost = std::ranges::count_if(cycles,
+                                              [](const ViscoelasticCycle& one) {
+                                                return one.converged() &&
+                                                       std::isnan(one.work_per_cycle);
+                                              });
       lost > 0)
     session.warn(
         fmt::format("n/a at {} of {} motions: the error of the loss is not smaller than "
@@ -143,13 +140,61 @@ std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
   return cycles;
 }
 
+// What is known of the assumptions. Most of them are checked by springs, which rough contacts with
+// memory do not have.
+AssumptionReport known_assumptions(const ViscoelasticArguments& arguments,
+                                   const RoughContact& contact,
+                                   const std::vector<ViscoelasticCycle>& cycles) {
+  Assumptions known;
+  if (arguments.motion.mode != "drag") known.slow_motion.verdict = Verdict::holds;
+  const Body& body = contact.viscoelastic.body;
+  // A half-space of Poisson's ratio 1/2 does not couple normal and tangential directions.
+  if (body.half_space_material() && body.compliance(1).coupling == 0)
+    known.coupling = {
+        .value = 0, .limit_5_percent = 0.05, .limit_20_percent = 0.2, .verdict = Verdict::holds};
+  AssumptionReport report{.cases = std::vector<Assumptions>(cycles.size(), known), .list = true};
+  // A slope h' makes the surface longer by h'²/2, which is 5 % at 0.32 and 20 % at 0.63.
+  const double slope = surface_moments(contact.surface).rms_slope();
+  const Verdict verdict = slope > 0.63   ? Verdict::broken
+                          : slope > 0.32 ? Verdict::doubtful
+                                         : Verdict::holds;
+  report.others.push_back({.name = "small_slope",
+                           .verdict = verdict,
+                           .assumption = "small slopes: rms slope below 0.32",
+                           .here = fmt::format("{:.3g}", slope),
+                           .remedy = verdict == Verdict::holds ? "" : "a filter of short waves"});
+  double area = 0;
+  for (const ViscoelasticCycle& cycle : cycles) area = std::fmax(area, cycle.contact_area_max);
+  if (area > 0)
+    report.others.push_back(
+        {.name = "open_contact",
+         .verdict = Verdict::holds,
+         .assumption = "below full contact",
+         .here = fmt::format("{:.3g} of the area at most", area / contact.surface.grid.area())});
+  return report;
+}
+
+// Throws NotConverged, with the frequencies, unless all steady states were found.
+void require_steady(const std::vector<ViscoelasticCycle>& cycles) {
+  std::vector<std::string> lost;
+  for (const ViscoelasticCycle& one : cycles)
+    if (!one.converged())
+      lost.push_back(
+          format_quantity(one.angular_frequency / (2 * std::numbers::pi), Dimension::frequency));
+  if (!lost.empty())
+    throw NotConverged(
+        fmt::format("viscoelastic: {} of {} steady states were not found (at {}); allow a larger "
+                    "--tolerance, or leave out relaxation times beyond 1e3 periods",
+                    lost.size(), cycles.size(), fmt::join(lost, ", ")));
+}
+
 void oscillate(const ViscoelasticArguments& arguments, Session& session) {
   require_tables(session, {"motions"});
   std::vector<std::string> missing = arguments.motion.missing();
   if (!arguments.motion.frequency.given())
     missing.emplace_back("--frequency (or --angular-frequency)");
-  const RoughContact contact = contact_of(
-      arguments, missing, "the loss of a rough contact on a viscoelastic body", session);
+  const RoughContact contact =
+      contact_of(arguments, missing, "the loss of a rough contact on a viscoelastic body", session);
   const std::vector<ViscoelasticCycle> cycles = cycles_of(arguments, contact, session);
   ResultTable table = table_of("motions", cycles);
   const auto [quantity, values] = arguments.motion.varied();
@@ -157,14 +202,14 @@ void oscillate(const ViscoelasticArguments& arguments, Session& session) {
     table.columns.insert(table.columns.begin(), {quantity, values});
   Json answer;
   answer["datum"] = name_of(contact.viscoelastic.body.datum());
+  answer["nominal_area"] = contact.surface.grid.area();
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
   if (session.has_plot())
     session.plot(
         figures::figure_of(table.columns.front().name, table.columns.front().values, cycles));
-  // The assumptions are checked by springs, which rough contacts with memory do not have.
-  AssumptionReport assumptions{.cases = std::vector<Assumptions>(cycles.size()), .list = true};
-  assumptions.answer(session, answer);
+  known_assumptions(arguments, contact, cycles).answer(session, answer);
+  require_steady(cycles);
 }
 
 }  // namespace
@@ -172,6 +217,51 @@ void oscillate(const ViscoelasticArguments& arguments, Session& session) {
 void run_on_surface(const ViscoelasticArguments& arguments, Session& session) {
   require_no_option_of_indenters(arguments);
   arguments.creep.empty() ? oscillate(arguments, session) : creep(arguments, session);
+}
+
+void lose_of_files(ViscoelasticArguments arguments, const std::vector<std::string>& files,
+                   Session& session) {
+  require_options_of_one(session, {{!arguments.creep.empty(), "--creep"}});
+  require_that(arguments.point.pressure.has_value(), "--pressure",
+               "not given; several surfaces are compared at the same nominal pressure");
+  const auto [varied, values] = arguments.motion.varied();
+  FileTable table{.columns = {},
+                  .loads = std::max<std::size_t>(1, values.size()),
+                  .interval = true,
+                  .csv = arguments.csv};
+  if (!values.empty()) {
+    table.load_heading = varied == "frequency" ? "angular_frequency" : varied;
+    table.columns.push_back(
+        column(table.load_heading, table.load_heading, table.load_heading, false));
+  }
+  const auto add = [&](const std::string& heading, const std::string& name, const std::string& unit,
+                       double scale, const char* number, const char* over, bool averaged) {
+    table.columns.push_back({.heading = heading,
+                             .name = name,
+                             .value = [=](const Json& answer, std::size_t load) -> Json {
+                               const Json above = member(answer, number, load),
+                                          below = member(answer, over, load);
+                               if (!above.is_number() || !below.is_number()) return {};
+                               const double found = above.number() / below.number();
+                               return std::isnan(found) ? Json() : Json(found);
+                             },
+                             .averaged = averaged,
+                             .scale = scale,
+                             .unit = unit});
+  };
+  add("γ/A0, N s/m per mm²", "damping_constant_per_area", "N s/m^3", 1e-6, "damping_constant",
+      "nominal_area", true);
+  add("W/A0, nJ per mm²", "work_per_cycle_per_area", "J/m^2", 1e3, "work_per_cycle", "nominal_area",
+      true);
+  add("error, %", "work_per_cycle_relative_error", "1", 100, "work_per_cycle_error",
+      "work_per_cycle", false);
+  add("tangential, %", "tangential_share", "1", 100, "tangential_work", "work_per_cycle", true);
+  add("largest A/A0", "contact_area_fraction_max", "1", 1, "contact_area_max", "nominal_area",
+      true);
+  answer_files(files, table, session, [&](const std::string& file) {
+    arguments.surface.file = file;
+    run_on_surface(arguments, session);
+  });
 }
 
 }  // namespace salebra::cli

@@ -674,12 +674,15 @@ class SteadyState {
     const detail::Branches decay = spring_.mode_decay(path.period());
     const double lost = decay.size() > 0 ? 1 - decay.maxCoeff() : 1;
 
+    const Field before = state_;
     NormalCycles normal(steps_, surface_, spring_, path);
     if (held_stiffness_ > 0) normal.hold_force(held_force_, held_stiffness_);
     if (options_.contact.boundary == Boundary::periodic && body_.stops_at_full_contact())
       normal.limit(steps_.highest() - surface_.heights.mean());
     const SearchReport found = find_periodic(
         state_, normal, path.amplitude > 0 ? path.amplitude : rest_indentation_, lost, options_);
+    // The search of the next frequency shall not start from where this one ended.
+    if (found.termination != Termination::converged) state_ = before;
     const double area = surface_.grid.cell_area();
     const BranchLoss branch_loss(spring_, series_);
     set_normal(result, normal, path, found);
@@ -839,6 +842,18 @@ class PathSteps {
 
 void ViscoelasticCycle::drop_uncertain() {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!converged()) {
+    samples.clear();
+    describe(
+        [&](auto member, const auto&) {
+          if constexpr (std::is_same_v<decltype(member), double ViscoelasticCycle::*>)
+            if (member != &ViscoelasticCycle::angular_frequency &&
+                member != &ViscoelasticCycle::residual)
+              this->*member = unknown;
+        },
+        std::type_identity<ViscoelasticCycle>{});
+    return;
+  }
   if (!(work_per_cycle_error < tangential_work))
     damping_constant = tangential_loss_stiffness = unknown;
   if (work_per_cycle_error < work_per_cycle) return;

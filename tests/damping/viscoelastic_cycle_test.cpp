@@ -326,6 +326,30 @@ TEST_CASE("A loss that does not exceed its error is not stated", "[viscoelastic_
   CHECK(!(elastic.work_per_cycle < 0));
 }
 
+TEST_CASE("A frequency without a steady state has no numbers, and the others keep theirs",
+          "[viscoelastic_cycle]") {
+  const RoughContact contact;
+  // The branch forgets within cycles at the first and the last frequency, and after 1e5 cycles at
+  // the second one.
+  const PronySeries series{1, {{3, 1e4 * tau}}};
+  const std::vector<double> frequencies{1e-4 / tau, 100 / tau, 1e-4 / tau};
+  const auto found =
+      viscoelastic_sweep(contact.surface, rubber, series, contact.motion(1), contact.point,
+                         frequencies, {.steps = 16, .max_cycles = 20});
+  REQUIRE(found.size() == 3);
+  for (const std::size_t k : {0u, 2u}) {
+    CHECK(found[k].converged());
+    CHECK(found[k].work_per_cycle > 0);
+  }
+  CHECK(found[2].work_per_cycle == Approx(found[0].work_per_cycle).epsilon(2e-3));
+  CHECK(found[1].termination == Termination::iteration_limit);
+  CHECK(found[1].angular_frequency == frequencies[1]);
+  for (const double number : {found[1].work_per_cycle, found[1].damping_constant,
+                              found[1].mean_force, found[1].contact_area_max})
+    CHECK(std::isnan(number));
+  CHECK(found[1].samples.empty());
+}
+
 TEST_CASE("What has no meaning on a viscoelastic body is refused", "[viscoelastic_cycle]") {
   const RoughContact contact;
   const auto cycle = [&](const EqualFrequency& motion, const OperatingPoint& point,

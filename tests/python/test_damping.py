@@ -497,6 +497,20 @@ def test_rough_contacts_on_rubber_lose_what_their_branches_dissipate() -> None:
         salebra.viscoelastic_sweep(surface, rubber, prony, motion, [1.0], pressure=1e4, steps=15)
 
 
+def test_a_law_of_a_body_takes_no_constants_of_half_spaces() -> None:
+    surface = generated(32, rms_height=1e-6)
+    film = salebra.Body.layered([salebra.ElasticLayer(1e-4, 3e9, 0.4)])
+    curve = salebra.sweep_pressures(surface, film, [1e6, 2e6, 5e6, 1e7, 2e7], stick=True)
+    law = salebra.TabulatedLaw(curve)
+    assert law.tangential_stiffness(curve.indentation[2]) == pytest.approx(curve.tangential_stiffness[2])
+    with pytest.raises(salebra.InvalidInput, match="modulus_ratio: 0.8 is of half-spaces"):
+        salebra.TabulatedLaw(curve, 0.8)
+    of_half_space = salebra.sweep_pressures(surface, 1e9, [1e6, 2e6, 5e6, 1e7, 2e7])
+    assert salebra.TabulatedLaw(of_half_space, 0.8).modulus_ratio == 0.8
+    with pytest.raises(salebra.InvalidInput, match="tangential_stiffness: is not known"):
+        salebra.TabulatedLaw(of_half_space)
+
+
 def test_creep_is_the_elastic_contact_at_the_creep_compliance(tmp_path: Path, program: Callable[..., Any]) -> None:
     surface = generated(32, rms_height=5e-6)
     tau, g, modulus = 0.02, 2.0, 3e6

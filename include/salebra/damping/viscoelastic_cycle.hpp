@@ -167,12 +167,13 @@ struct ViscoelasticCycle {
   /// Largest estimated distance from the periodic state, as ViscoelasticCycleOptions::tolerance.
   double residual = 0;
   /// Worst outcome of all solves and of the search of the periodic state; unless it is `converged`,
-  /// the numbers must not be used.
+  /// the numbers are NaN.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
   /// Makes NaN what does not exceed its error: all numbers of the loss, or only those of
-  /// tangential_work alone (damping constant and tangential loss stiffness).
+  /// tangential_work alone (damping constant and tangential loss stiffness). Without a steady state,
+  /// only the frequency, cycles and residual are left.
   void drop_uncertain();
 };
 
@@ -248,7 +249,9 @@ ViscoelasticCycle viscoelastic_cycle(const Surface& surface, const Body& body,
                                      const ViscoelasticCycleOptions& options = {});
 
 /// The same motion at several frequencies, each > 0, rad/s. The search of each periodic state
-/// starts from that of the frequency before, so that neighbours should follow each other:
+/// starts from that of the frequency before, so that neighbours should follow each other. A
+/// frequency without a steady state has no numbers, and `termination` says why; the others have
+/// theirs:
 ///     const auto sweep =
 ///         viscoelastic_sweep(surface, rubber, series, motion, point, std::vector{10.0, 100.0});
 std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const Body& body,
