@@ -170,7 +170,7 @@ AssumptionReport known_assumptions(const ViscoelasticArguments& arguments,
         {.name = "open_contact",
          .verdict = Verdict::holds,
          .assumption = "below full contact",
-         .here = fmt::format("{:.3g} of the area at most", area / contact.surface.grid.area())});
+         .here = fmt::format("{:.3g} of the area", area / contact.surface.grid.area())});
   return report;
 }
 

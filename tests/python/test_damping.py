@@ -499,7 +499,7 @@ def test_rough_contacts_on_rubber_lose_what_their_branches_dissipate() -> None:
 
 def test_a_law_of_a_body_takes_no_constants_of_half_spaces() -> None:
     surface = generated(32, rms_height=1e-6)
-    film = salebra.Body.layered([salebra.ElasticLayer(1e-4, 3e9, 0.4)])
+    film = salebra.Body.layered([(1e-4, 3e9, 0.4)])
     curve = salebra.sweep_pressures(surface, film, [1e6, 2e6, 5e6, 1e7, 2e7], stick=True)
     law = salebra.TabulatedLaw(curve)
     assert law.tangential_stiffness(curve.indentation[2]) == pytest.approx(curve.tangential_stiffness[2])
