@@ -125,7 +125,7 @@ void run(ViscoelasticArguments arguments, Session& session) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
     figure.caption +=
-        " " +
+        " Motion: " +
         std::visit(
             [&](const auto& motion) {
               return figures::motion_text(motion, table.columns.front().name == "frequency"
