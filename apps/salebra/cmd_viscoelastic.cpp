@@ -124,22 +124,21 @@ void run(ViscoelasticArguments arguments, Session& session) {
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
-    figure.caption +=
-        " Motion: " +
-        std::visit(
-            [&](const auto& motion) {
-              return figures::motion_text(motion, table.columns.front().name == "frequency"
-                                                      ? "angular_frequency"
-                                                      : quantity);
-            },
-            arguments.motion.motions().front()) +
-        ".";
+    figure.caption += motion_of_caption(arguments);
     session.plot(figure);
   }
   assumptions.answer(session, answer);
 }
 
 }  // namespace
+
+std::string motion_of_caption(const ViscoelasticArguments& arguments) {
+  const std::string varied = arguments.motion.varied().first;
+  const auto text = [&](const auto& motion) {
+    return figures::motion_text(motion, varied == "frequency" ? "angular_frequency" : varied);
+  };
+  return " Motion: " + std::visit(text, arguments.motion.motions().front()) + ".";
+}
 
 void add_viscoelastic_command(Program& program) {
   auto arguments = std::make_shared<ViscoelasticArguments>();

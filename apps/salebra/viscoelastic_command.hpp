@@ -28,6 +28,8 @@ struct ViscoelasticArguments {
 /// `salebra viscoelastic SURFACE --body FILE`: the cycles of a rough contact, or with --creep its
 /// contact over the time.
 void run_on_surface(const ViscoelasticArguments& arguments, Session& session);
+/// The motion for the caption of a figure, without the quantity that varies.
+std::string motion_of_caption(const ViscoelasticArguments& arguments);
 /// The losses of each of several surfaces under the same pressure.
 void lose_of_files(ViscoelasticArguments arguments, const std::vector<std::string>& files,
                    Session& session);

@@ -60,7 +60,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   Figure figure{.kind = "viscoelastic_cycle",
                 .caption =
                     "Energy lost in a cycle of a rough contact on a viscoelastic body by the "
-                    "two directions of motion, with the part that cells release when they "
+                    "normal and the tangential motion, with the part that cells release when they "
                     "leave, and stiffnesses in and out of phase.",
                 .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
