@@ -88,6 +88,7 @@ std::vector<AssumptionVerdict> AssumptionReport::all_verdicts() const {
     for (AssumptionVerdict& one : all)
       if (!one.remedy.empty() && one.name.starts_with("slip_of"))
         one.remedy = "reduce the motion; slip is not computed here";
+  all.insert(all.begin(), others.begin(), others.end());
   return all;
 }
 

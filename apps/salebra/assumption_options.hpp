@@ -30,7 +30,8 @@ struct AssumptionReport {
   std::vector<double> pressures = {};  ///< pressure of each case of a study, Pa
   /// Name of the body that was checked, if it is not that of the answer.
   std::string body = {};
-  bool slip_followed = false;  ///< whether the loss includes slip
+  bool slip_followed = false;                  ///< whether the loss includes slip
+  std::vector<AssumptionVerdict> others = {};  ///< on what Assumptions does not have
 
   /// Adds the keys `validity`, `verdicts`, `assumptions` and `max_motion`; `regime` if it is known
   /// or was requested; `assumptions_of` if another body was checked than that of the answer.

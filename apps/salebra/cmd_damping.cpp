@@ -174,7 +174,7 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
 std::string setting_of(const DampingSolution& answer, std::string_view varied,
                        std::optional<double> friction) {
   const DampingResult& first = answer.results.front();
-  std::string text = " " + figures::motion_text(answer.motions.front(), varied);
+  std::string text = " Motion: " + figures::motion_text(answer.motions.front(), varied);
   text += friction ? fmt::format(", µ = {:.3g}", *friction) : ", no slip";
   if (varied != "force" && varied != "pressure" && varied != "mean_gap" && varied != "indentation")
     text += ", F = " + format_quantity(first.force, Dimension::force, 4);

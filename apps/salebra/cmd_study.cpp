@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/figures/figures.hpp>
@@ -13,6 +12,7 @@
 #include <salebra/study/study.hpp>
 #include <tuple>
 
+#include "figures/axes.hpp"
 #include "option_words.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
@@ -264,33 +264,16 @@ std::string adhesion_table(const StudyResult& result) {
                      100 * result.adhesion_cycle(reversible_share).mean);
 }
 
-/// "slow shear over 1 nm at 1 mm/s under 100 pm at 20 kHz"
-std::string motion_in_words(const Oscillation& motion, double excursion) {
-  const auto quantity = [](double value, Dimension dimension) {
-    return format_quantity(value, dimension, 3);
-  };
-  const auto frequency = [&](double omega) {
-    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
-  };
-  if (const auto* drag = std::get_if<Drag>(&motion))
-    return fmt::format(
-        "slow shear{} at {} under {} at {}",
-        std::isnan(excursion) ? "" : " over " + quantity(excursion, Dimension::length),
-        quantity(drag->drag_velocity, Dimension::velocity),
-        quantity(drag->normal_amplitude, Dimension::length), frequency(drag->angular_frequency));
-  const auto& equal = std::get<EqualFrequency>(motion);
-  return fmt::format("{} tangential and {} normal, {} apart, at {}",
-                     quantity(equal.tangential_amplitude, Dimension::length),
-                     quantity(equal.normal_amplitude, Dimension::length),
-                     quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
-}
-
 /// The damping constant at each load in one direction, with its assumptions.
 std::string damping_text(const StudyResult& result, const StudySolution& answer) {
   const double friction = result.configuration.known.friction_coefficient;
   const std::string motion =
       "Damping constant: " +
-      motion_in_words(result.configuration.motion, result.configuration.known.excursion) +
+      std::visit(
+          [&](const auto& one) {
+            return figures::motion_text(one, {}, result.configuration.known.excursion);
+          },
+          result.configuration.motion) +
       (result.configuration.hold() == Hold::force ? ", mean force held" : "");
   const std::string beside = fmt::format(
       "{}{}", std::isnan(answer.direction) ? "" : ", " + direction_in_words(answer.direction),

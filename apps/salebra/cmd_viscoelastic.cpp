@@ -7,33 +7,18 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/damping/viscoelastic_cycle.hpp>  // analysis/ has no problem for these two
-#include <salebra/damping/viscoelastic_damping.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>  // analysis/ has no problem for it
 #include <salebra/figures/figures.hpp>
-#include <salebra/study/body_file.hpp>
 
-#include "assumption_options.hpp"
 #include "damping/phase_quadrature.hpp"
 #include "figures/axes.hpp"
-#include "indenter_options.hpp"
-#include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "several_files.hpp"
+#include "viscoelastic_command.hpp"
 
 namespace salebra::cli {
 namespace {
-
-struct ViscoelasticArguments {
-  IndenterOptions indenter;
-  MaterialOptions material;
-  MotionOptions motion;
-  OperatingPointOptions point;
-  std::string prony, body_file, hold = "auto";
-  SurfaceOptions surface;
-  std::optional<int> steps, springs;
-  std::optional<double> tolerance;
-  AssumptionOptions assumptions;
-};
 
 /// Reads terms written as "G1:tau1,G2:tau2", modulus and relaxation time.
 std::vector<PronyTerm> parse_terms(const std::string& text) {
@@ -83,105 +68,18 @@ std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
   return losses;
 }
 
-// Computes the steady cycles of motions that differ at most in their frequency, or of each motion.
-std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
-                                         const ViscoelasticBody& viscoelastic,
-                                         const Surface& surface, const OperatingPoint& point,
-                                         Session& session) {
-  require(!viscoelastic.relaxation.terms.empty(), "--body", arguments.body_file,
-          "does not relax; give it [[relaxation]] tables, or use `salebra oscillate`");
-  ViscoelasticCycleOptions options;
-  options.hold = *parse_enum<Hold>(arguments.hold);
-  options.on_progress = session.progress();
-  if (arguments.steps) options.steps = *arguments.steps;
-  if (arguments.tolerance) options.tolerance = *arguments.tolerance;
-  if (!surface.periodic)
-    session.warn("the surface is continued periodically, because it is not stated to repeat");
-  const std::vector<Oscillation> motions = arguments.motion.motions();
-  const std::string varied = arguments.motion.varied().first;
-  std::vector<ViscoelasticCycle> cycles;
-  if (varied == "frequency" || varied == "angular_frequency") {
-    cycles =
-        viscoelastic_sweep(surface, viscoelastic.body, viscoelastic.relaxation, motions.front(),
-                           point, arguments.motion.frequency.angular(), options);
-  } else {
-    for (const Oscillation& motion : motions)
-      cycles.push_back(viscoelastic_cycle(surface, viscoelastic.body, viscoelastic.relaxation,
-                                          motion, point, options));
-  }
-  if (const auto lost = std::ranges::count_if(
-          cycles, [](const ViscoelasticCycle& one) { return !one.converged(); });
-      lost > 0)
-    throw NotConverged(
-        fmt::format("viscoelastic: {} of {} steady states were not found; allow a larger "
-                    "--tolerance, or leave out relaxation times beyond 1e3 periods",
-                    lost, cycles.size()));
-  if (const auto lost = std::ranges::count_if(
-          cycles, [](const ViscoelasticCycle& one) { return std::isnan(one.work_per_cycle); });
-      lost > 0)
-    session.warn(
-        fmt::format("n/a at {} of {} motions: the error of the loss is not smaller than "
-                    "the loss; give more --steps",
-                    lost, cycles.size()));
-  return cycles;
-}
-
-void run_on_surface(const ViscoelasticArguments& arguments, Session& session) {
-  for (const auto& [given, option] :
-       {std::pair(!arguments.indenter.law.empty(), "--law"),
-        {!arguments.prony.empty(), "--prony"},
-        {arguments.material.given(),
-         "--young, --poisson, --contact-modulus or --tangential-modulus"},
-        {arguments.springs.has_value(), "--springs"},
-        {arguments.assumptions.friction_coefficient.has_value(), "--friction-coefficient"},
-        {arguments.assumptions.hardness.has_value(), "--hardness"},
-        {arguments.assumptions.density.has_value(), "--density"},
-        {arguments.assumptions.excursion.has_value(), "--excursion"}})
-    require(!given, option, "", "applies to an indenter; leave it out with SURFACE");
-  arguments.indenter.require_only({}, "SURFACE");
-  std::vector<std::string> missing = arguments.motion.missing();
-  if (arguments.body_file.empty()) missing.insert(missing.begin(), "--body");
-  if (!arguments.motion.frequency.given())
-    missing.emplace_back("--frequency (or --angular-frequency)");
-  if (arguments.point.count() == 0)
-    missing.emplace_back("--pressure (or --normal-force, --mean-gap, --indentation)");
-  require_options(missing, "the loss of a rough contact on a viscoelastic body");
-  require_that(arguments.point.count() == 1,
-               "--pressure, --normal-force, --mean-gap, --indentation",
-               "several are given; give one of them");
-  session.require_one_process("SURFACE");
-  const ViscoelasticBody body = read_viscoelastic_body(arguments.body_file);
-  const Surface surface = arguments.surface.read(session);
-  const auto pressure = arguments.point.nominal_pressure(surface.grid);
-  const OperatingPoint point = pressure ? at_pressure(*pressure)
-                               : arguments.point.mean_gap
-                                   ? at_mean_gap(*arguments.point.mean_gap)
-                                   : at_indentation(*arguments.point.indentation);
-  const std::vector<ViscoelasticCycle> cycles = cycles_of(arguments, body, surface, point, session);
-  ResultTable table = table_of("motions", cycles);
-  const auto [quantity, values] = arguments.motion.varied();
-  if (!values.empty() && quantity != "angular_frequency" && quantity != "frequency")
-    table.columns.insert(table.columns.begin(), {quantity, values});
-  Json answer;
-  answer["datum"] = name_of(body.body.datum());
-  write_tables(session, "viscoelastic", answer, {table});
-  for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
-  if (session.has_plot())
-    session.plot(
-        figures::figure_of(table.columns.front().name, table.columns.front().values, cycles));
-  // The assumptions are checked by springs, which rough contacts with memory do not have.
-  AssumptionReport assumptions{.cases = std::vector<Assumptions>(cycles.size()), .list = true};
-  assumptions.answer(session, answer);
-}
-
-void run(const ViscoelasticArguments& arguments, Session& session) {
-  require_tables(session, {"motions"});
+void run(ViscoelasticArguments arguments, Session& session) {
+  const std::vector<std::string> files = arguments.surface.several(!arguments.csv.empty());
+  if (!files.empty()) return lose_of_files(std::move(arguments), files, session);
+  require_that(arguments.csv.empty(), "--csv", "needs the files of surfaces; give SURFACE");
   if (arguments.surface.given()) return run_on_surface(arguments, session);
+  require_tables(session, {"motions"});
   for (const auto& [given, option] : {std::pair(!arguments.body_file.empty(), "--body"),
                                       {arguments.point.pressure.has_value(), "--pressure"},
                                       {arguments.point.mean_gap.has_value(), "--mean-gap"},
                                       {arguments.tolerance.has_value(), "--tolerance"},
-                                      {arguments.hold != "auto", "--hold"}})
+                                      {arguments.hold != "auto", "--hold"},
+                                      {!arguments.creep.empty(), "--creep"}})
     require(!given, option, "", "applies to a rough surface; give SURFACE too");
   std::vector<std::string> missing = arguments.motion.missing();
   if (arguments.prony.empty()) missing.insert(missing.begin(), "--prony");
@@ -226,22 +124,21 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
-    figure.caption +=
-        " " +
-        std::visit(
-            [&](const auto& motion) {
-              return figures::motion_text(motion, table.columns.front().name == "frequency"
-                                                      ? "angular_frequency"
-                                                      : quantity);
-            },
-            arguments.motion.motions().front()) +
-        ".";
+    figure.caption += motion_of_caption(arguments);
     session.plot(figure);
   }
   assumptions.answer(session, answer);
 }
 
 }  // namespace
+
+std::string motion_of_caption(const ViscoelasticArguments& arguments) {
+  const std::string varied = arguments.motion.varied().first;
+  const auto text = [&](const auto& motion) {
+    return figures::motion_text(motion, varied == "frequency" ? "angular_frequency" : varied);
+  };
+  return " Motion: " + std::visit(text, arguments.motion.motions().front()) + ".";
+}
 
 void add_viscoelastic_command(Program& program) {
   auto arguments = std::make_shared<ViscoelasticArguments>();
@@ -253,8 +150,10 @@ void add_viscoelastic_command(Program& program) {
        "salebra viscoelastic rough.h5 --body rubber.toml --pressure 50kPa --mode equal-frequency "
        "--normal-amplitude 100nm --tangential-amplitude 50nm --phase 90deg --frequency 1Hz:1kHz:7"},
       [arguments](Session& session) { run(*arguments, session); },
-      "losses and complex modulus over the quantity that varies", OutputCheck::any_name);
-  arguments->surface.add_to(command, false);
+      "losses and complex modulus over the quantity that varies, or the contact over the time",
+      OutputCheck::any_name);
+  arguments->surface.add_several_to(command);
+  add_table_file(command, arguments->csv);
   arguments->indenter.add_to(command);
   arguments->point.add_to(command);
   arguments->material.add_to(command);
@@ -270,10 +169,14 @@ void add_viscoelastic_command(Program& program) {
                   "G_i/G_inf and times")
       ->file(FileUse::input);
   command.under("Options");
+  add_values(command, "--creep", arguments->creep, Dimension::time,
+             "times at which a load or indentation, applied to SURFACE at time 0 and held, is "
+             "answered in place of a motion, such as 1ms:10s:9");
   arguments->motion.add_to(command);
   add_steps(command, arguments->steps,
-            "straight steps per cycle; default 512, with SURFACE 64, even")
-      ->range(16, 1000000);
+            "straight steps per cycle; default 512, with SURFACE 64, even; between the times of "
+            "--creep 16, even")
+      ->range(2, 1000000);
   command
       .add_option("--springs", arguments->springs,
                   "number of springs in the ring that opens and closes; default 200")

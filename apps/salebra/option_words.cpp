@@ -47,6 +47,9 @@ std::string in_options(std::string_view message) {
 }
 
 std::string with_option(const InvalidInput& refusal) {
+  // A library cannot name the command for a body that relaxes, which an elastic command refuses.
+  if (refusal.field().ends_with("relaxation"))
+    return std::string(refusal.what()) + " (salebra viscoelastic SURFACE --body FILE)";
   const std::string option = option_of(refusal.field());
   return option.empty() ? refusal.what() : option + ": " + refusal.statement();
 }

@@ -18,6 +18,7 @@
 #include "io/text_file.hpp"
 #include "option_words.hpp"
 #include "result_tables.hpp"
+#include "study/estimate.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
 
@@ -191,9 +192,11 @@ std::string cell(const FileColumn& column, const Json& value) {
   return format_quantity(column.scale * number, column.dimension, 3);
 }
 
-/// Mean and standard deviation between the files; NaN if a file has no value.
+/// Mean, standard deviation between the files and 95 % interval of the mean; NaN if a file has no
+/// value.
 struct Spread {
   double mean = std::nan(""), deviation = std::nan("");
+  EnsembleMean interval = {};
 };
 
 Spread spread_of(const FileColumn& column, const std::vector<const FileAnswer*>& files,
@@ -202,10 +205,11 @@ Spread spread_of(const FileColumn& column, const std::vector<const FileAnswer*>&
   for (const FileAnswer* file : files)
     values.push_back(number_in(column.value(file->answer, load)));
   const auto count = static_cast<double>(values.size());
-  Spread spread{0, 0};
+  Spread spread{.mean = 0, .deviation = 0};
   for (const double value : values) spread.mean += value / count;
   for (const double value : values) spread.deviation += std::pow(value - spread.mean, 2);
   spread.deviation = std::sqrt(spread.deviation / (count - 1));
+  if (std::isfinite(spread.mean)) spread.interval = student_mean(values);
   return spread;
 }
 
@@ -319,7 +323,7 @@ class FilesAnswer {
   /// The first column: the file and, if there are loads, the load, which the parts of a wide table
   /// repeat.
   std::vector<std::string> labels() const {
-    std::vector<std::string> names{"file"}, loads{"pressure"};
+    std::vector<std::string> names{"file"}, loads{table_.load_heading};
     const auto load_of = [&](const FileAnswer* file, std::size_t load) {
       return has_loads() ? cell(*shown_.front(), shown_.front()->value(file->answer, load)) : "";
     };
@@ -329,8 +333,7 @@ class FilesAnswer {
         loads.push_back(load_of(file, load));
       }
     for (std::size_t load = 0; load < table_.loads; ++load)
-      for (const std::string& name :
-           {fmt::format("mean of {}", good_.size()), std::string("spread")}) {
+      for (const std::string& name : summary_names()) {
         names.push_back(name);
         loads.push_back(load_of(good_.front(), load));
       }
@@ -347,7 +350,24 @@ class FilesAnswer {
     return names;
   }
 
-  bool has_loads() const { return !shown_.empty() && shown_.front()->heading == "pressure"; }
+  bool has_loads() const {
+    return !shown_.empty() && shown_.front()->heading == table_.load_heading;
+  }
+
+  /// The rows below those of the files.
+  std::vector<std::string> summary_names() const {
+    std::vector<std::string> names{fmt::format("mean of {}", good_.size()), "spread"};
+    if (table_.interval) names.insert(names.end(), {"mean, 95 % from", "to"});
+    return names;
+  }
+  std::vector<std::string> summary(const FileColumn& column, std::size_t load) const {
+    const Spread found = spread_of(column, good_, load);
+    std::vector<std::string> cells;
+    for (const double value :
+         {found.mean, found.deviation, found.interval.low, found.interval.high})
+      cells.push_back(column.averaged ? cell(column, value) : "");
+    return cells;
+  }
 
   std::vector<std::vector<std::string>> rows() const {
     std::vector<std::vector<std::string>> rows(1);
@@ -361,14 +381,12 @@ class FilesAnswer {
           row.push_back(cell(*column, column->value(file->answer, load)));
       }
     for (std::size_t load = 0; load < table_.loads && good_.size() > 1; ++load) {
-      std::vector<std::string> mean, spread;
+      const std::size_t first = rows.size();
+      rows.resize(first + summary_names().size());
       for (const FileColumn* column : columns) {
-        const Spread found = spread_of(*column, good_, load);
-        mean.push_back(column->averaged ? cell(*column, found.mean) : "");
-        spread.push_back(column->averaged ? cell(*column, found.deviation) : "");
+        const std::vector<std::string> cells = summary(*column, load);
+        for (std::size_t k = first; k < rows.size(); ++k) rows[k].push_back(cells[k - first]);
       }
-      rows.push_back(std::move(mean));
-      rows.push_back(std::move(spread));
     }
     const std::vector<std::string> first = labels();
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k].insert(rows[k].begin(), first[k]);

@@ -54,7 +54,10 @@ std::string one_direction(const std::string& direction);
 
 struct FileTable {
   std::vector<FileColumn> columns;
-  std::size_t loads = 1;  ///< rows of each file; a first column "pressure" then tells them apart
+  /// Rows of each file. The first column then tells them apart if its heading is load_heading.
+  std::size_t loads = 1;
+  std::string load_heading = "pressure";
+  bool interval = false;  ///< whether to print the 95 % interval of each mean
   std::string csv = {};   ///< file of --csv; empty: none
   std::string note = {};  ///< printed below the text if the first averaged column lacks a number
 };

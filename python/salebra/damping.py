@@ -38,6 +38,7 @@ from ._core import (
     TwoFrequencies as TwoFrequencies,
     ViscoelasticCycle as ViscoelasticCycle,
     ViscoelasticDamping as ViscoelasticDamping,
+    ViscoelasticPath as ViscoelasticPath,
     asperity_damping as asperity_damping,
     boundary_element_contact_sets as boundary_element_contact_sets,
     common_period as common_period,
@@ -69,5 +70,6 @@ from ._core import (
     threshold_angular_frequency as threshold_angular_frequency,
     trajectory_damping as trajectory_damping,
     viscoelastic_damping as viscoelastic_damping,
+    viscoelastic_path as viscoelastic_path,
     viscoelastic_sweep as viscoelastic_sweep,
 )

@@ -13,6 +13,7 @@
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/generators/profile.hpp>
@@ -198,10 +199,10 @@ void bind_figures(nb::module_& parent) {
                 SpotStatistics, SummitList, PowerSpectrum, RadialSpectrum, ProfilePsd, ConvertedPsd,
                 CorrelationMap, Correlation, ScaleDependence, HeightHistogram, BearingCurve,
                 Profile, MonteCarloCurve, AsperityDamping, SampledMotion, TrajectoryDamping,
-                ViscoelasticDamping, ViscoelasticIndentation, ContactSetAt, CycleResult,
-                SliderMotion, StressMap, FrictionMap, RegimeMap, DamperMap, SurfacePicture,
-                ModelResult, Realisation, StudyResult, StudySolution, StudySensitivity,
-                BoundDampingCurve, CurveOf<DampingPoint>, CurveOf<EnsembleMean>,
+                ViscoelasticDamping, ViscoelasticIndentation, ViscoelasticPath, ContactSetAt,
+                CycleResult, SliderMotion, StressMap, FrictionMap, RegimeMap, DamperMap,
+                SurfacePicture, ModelResult, Realisation, StudyResult, StudySolution,
+                StudySensitivity, BoundDampingCurve, CurveOf<DampingPoint>, CurveOf<EnsembleMean>,
                 CurveOf<StatedMean>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
   bind_laws();
 }

@@ -205,10 +205,16 @@ Parameters
 ----------
 curve : ForceCurve
     At least four usable samples.
-modulus_ratio : float
-    G*/E*.
+modulus_ratio : float, optional
+    G*/E*. It is left out for a curve with K_t at every load, as a :class:`Body` that is no half-space needs it.
 )")
-      .def(nb::init<const ForceCurve&, double>(), nb::arg("curve"), nb::arg("modulus_ratio"));
+      .def(
+          "__init__",
+          [](TabulatedLaw* self, const ForceCurve& curve, std::optional<double> modulus_ratio) {
+            new (self) TabulatedLaw(
+                curve, modulus_ratio.value_or(std::numeric_limits<double>::quiet_NaN()));
+          },
+          nb::arg("curve"), nb::arg("modulus_ratio") = nb::none());
 }
 
 }  // namespace salebra::python

@@ -203,10 +203,66 @@ InvalidInput
 )");
 }
 
+void bind_path(nb::module_& m) {
+  auto result = described_class<ViscoelasticPath>(
+      m, "ViscoelasticPath", "Contact on a viscoelastic body along a path; columns are views.");
+  result_methods(result);
+  m.def(
+      "viscoelastic_path",
+      [](const BoundSurface& surface, const PressedArgument& material, const PronySeries& prony,
+         const Values& time, const std::optional<Values>& pressure,
+         const std::optional<Values>& indentation, const std::optional<Values>& force, int steps,
+         const Choice<Boundary>& boundary, const ProgressArgument& progress) {
+        require_that(pressure.has_value() + indentation.has_value() + force.has_value() == 1,
+                     "path", "exactly one of `pressure`, `indentation` and `force` must be given");
+        const OperatingPoints path =
+            pressure      ? OperatingPoints{ControlQuantity::pressure, pressure->values}
+            : indentation ? OperatingPoints{ControlQuantity::indentation, indentation->values}
+                          : OperatingPoints{ControlQuantity::normal_force, force->values};
+        ViscoelasticPathOptions options{.steps = steps,
+                                        .contact = {.boundary = boundary.value("boundary")}};
+        cite({"polonsky_keer1999", "stanley_kato1997"});
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return viscoelastic_path(surface.surface, material.pressed(), prony, time.values, path,
+                                   options);
+        });
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("prony"), nb::arg("time"), nb::kw_only(),
+      nb::arg("pressure") = nb::none(), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("steps") = ViscoelasticPathOptions().steps,
+      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      R"(Contact of a rough surface on an undisturbed viscoelastic body along a path in time, such as creep under a constant pressure.
+
+The value at the first time is reached at once, with the unrelaxed response; between the times it is straight. Each step is one elastic contact.
+
+Parameters
+----------
+surface : Surface
+material : Material or Body
+    The relaxed response.
+prony : PronySeries
+    Only the ratios G_i/G∞ and τ_i are used. The series holds for the whole body.
+time : array_like
+    s, increasing.
+pressure, indentation, force : float or array_like, optional
+    One of them, Pa, m or N: a value at each time, or one that is held.
+steps : int
+    Straight steps between neighbouring times, even, >= 2; half as many give `indentation_error` and `pressure_error`.
+boundary : {"periodic", "free"}
+    A free boundary needs a half-space.
+
+Returns
+-------
+ViscoelasticPath
+)");
+}
+
 }  // namespace
 
 void bind_viscoelastic(nb::module_& m) {
   bind_series(m);
+  bind_path(m);
   bind_rough_cycles(m);
   bind_indentation(m);
   bind_damping_of_period(m);

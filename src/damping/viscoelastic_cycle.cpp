@@ -674,12 +674,15 @@ class SteadyState {
     const detail::Branches decay = spring_.mode_decay(path.period());
     const double lost = decay.size() > 0 ? 1 - decay.maxCoeff() : 1;
 
+    const Field before = state_;
     NormalCycles normal(steps_, surface_, spring_, path);
     if (held_stiffness_ > 0) normal.hold_force(held_force_, held_stiffness_);
     if (options_.contact.boundary == Boundary::periodic && body_.stops_at_full_contact())
       normal.limit(steps_.highest() - surface_.heights.mean());
     const SearchReport found = find_periodic(
         state_, normal, path.amplitude > 0 ? path.amplitude : rest_indentation_, lost, options_);
+    // The search of the next frequency shall not start from where this one ended.
+    if (found.termination != Termination::converged) state_ = before;
     const double area = surface_.grid.cell_area();
     const BranchLoss branch_loss(spring_, series_);
     set_normal(result, normal, path, found);
@@ -771,10 +774,86 @@ class SteadyState {
   Field state_;
 };
 
+// The contact along a path, with a number of straight steps between the given times.
+class PathSteps {
+ public:
+  PathSteps(const Surface& surface, const Body& body, const PronySeries& relaxation,
+            std::span<const double> time, const OperatingPoints& path,
+            const ViscoelasticPathOptions& options)
+      : surface_(surface),
+        time_(time),
+        path_(path),
+        options_(options),
+        spring_(relaxation),
+        contacts_(surface, body, spring_, options.contact) {}
+
+  ViscoelasticPath run(int steps) const {
+    History history(spring_, Field::Zero(surface_.grid.nx, surface_.grid.ny));
+    ViscoelasticPath result;
+    result.converged = true;
+    NormalContactState state;
+    for (std::size_t i = 0; i < time_.size(); ++i) {
+      const int count = i > 0 ? steps : 1;
+      const double duration = i > 0 ? (time_[i] - time_[i - 1]) / steps : 0,
+                   before = value_at(i > 0 ? i - 1 : 0), change = value_at(i) - before;
+      const Stretching step = spring_.stretching(duration);
+      for (int k = 1; k <= count; ++k) {
+        const double value = before + change * k / count;
+        const Field guess = state.contact_pressure;
+        state = contacts_.advance(history, step, {path_.control, value}, &guess);
+        if (state.termination == Termination::interrupted) stop();
+        result.converged = result.converged && state.converged();
+      }
+      result.points.push_back({.time = time_[i],
+                               .pressure = state.force / surface_.grid.area(),
+                               .force = state.force,
+                               .indentation = state.indentation,
+                               .mean_gap = state.mean_gap,
+                               .contact_area_fraction = state.contact_area_fraction});
+      report(steps, i + 1);
+    }
+    result.contact_pressure = state.contact_pressure;
+    result.gap = state.gap;
+    return result;
+  }
+
+ private:
+  double value_at(std::size_t i) const { return path_.values[path_.values.size() > 1 ? i : 0]; }
+
+  // The first run has half as many steps as the second one.
+  void report(int steps, std::size_t done) const {
+    const double part = static_cast<double>(done) / static_cast<double>(time_.size()),
+                 fraction = steps < options_.steps ? part / 3 : (1 + 2 * part) / 3;
+    if (options_.on_progress &&
+        !options_.on_progress({.stage = "viscoelastic", .fraction = fraction}))
+      stop();
+  }
+  [[noreturn]] static void stop() { throw Interrupted("viscoelastic: interrupted"); }
+
+  const Surface& surface_;
+  std::span<const double> time_;
+  const OperatingPoints& path_;
+  const ViscoelasticPathOptions& options_;
+  MaxwellSpring spring_;
+  NormalSteps contacts_;
+};
+
 }  // namespace
 
 void ViscoelasticCycle::drop_uncertain() {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (!converged()) {
+    samples.clear();
+    describe(
+        [&](auto member, const auto&) {
+          if constexpr (std::is_same_v<decltype(member), double ViscoelasticCycle::*>)
+            if (member != &ViscoelasticCycle::angular_frequency &&
+                member != &ViscoelasticCycle::residual)
+              this->*member = unknown;
+        },
+        std::type_identity<ViscoelasticCycle>{});
+    return;
+  }
   if (!(work_per_cycle_error < tangential_work))
     damping_constant = tangential_loss_stiffness = unknown;
   if (work_per_cycle_error < work_per_cycle) return;
@@ -789,36 +868,33 @@ void ViscoelasticCycle::drop_uncertain() {
 ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
                                    const PronySeries& relaxation, std::span<const double> time,
                                    const OperatingPoints& path,
-                                   const NormalContactOptions& options) {
-  check(surface, options);
-  require(!time.empty(), "time", time.size(), "samples given; give at least 1");
-  require(path.values.size() == time.size(), name_of(path.control), path.values.size(),
-          "values do not match the times; give one for each");
+                                   const ViscoelasticPathOptions& options) {
+  check(surface, options.contact);
+  require(!time.empty(), "time", time.size(), "values given; give at least 1");
+  require(path.values.size() == time.size() || path.values.size() == 1, name_of(path.control),
+          path.values.size(), "values do not match the times; give one, or one for each");
   require(path.control != ControlQuantity::mean_gap, "mean_gap", path.values.front(),
           "cannot be prescribed along a path; give pressures, forces or indentations");
-  for (std::size_t i = 0; i < time.size(); ++i) {
+  require(options.steps >= 2 && options.steps % 2 == 0, "steps", options.steps,
+          "must be even and >= 2");
+  for (std::size_t i = 0; i < time.size(); ++i)
     require(std::isfinite(time[i]) && (i == 0 || time[i] > time[i - 1]), "time", time[i],
-            "s must be finite and later than the sample before");
-    require(std::isfinite(path.values[i]), name_of(path.control), path.values[i], "must be finite");
-  }
-  const MaxwellSpring spring(relaxation);
-  const NormalSteps steps(surface, body, spring, options);
-  History history(spring, Field::Zero(surface.grid.nx, surface.grid.ny));
-  ViscoelasticPath result;
-  result.converged = true;
+            "s must be finite and later than the time before");
+  for (const double value : path.values)
+    require(std::isfinite(value), name_of(path.control), value, "must be finite");
+  const PathSteps steps(surface, body, relaxation, time, path, options);
+  const ViscoelasticPath coarse = steps.run(options.steps / 2);
+  ViscoelasticPath fine = steps.run(options.steps);
   for (std::size_t i = 0; i < time.size(); ++i) {
-    const double duration = i > 0 ? time[i] - time[i - 1] : 0;
-    Field guess = i > 0 ? result.last.contact_pressure : Field();
-    result.last =
-        steps.advance(history, spring.stretching(duration), {path.control, path.values[i]}, &guess);
-    if (result.last.termination == Termination::interrupted)
-      throw Interrupted("viscoelastic: interrupted");
-    result.converged = result.converged && result.last.converged();
-    result.force.push_back(result.last.force);
-    result.indentation.push_back(result.last.indentation);
-    result.contact_area_fraction.push_back(result.last.contact_area_fraction);
+    ViscoelasticPoint& point = fine.points[i];
+    const ViscoelasticPoint& half = coarse.points[i];
+    if (path.control == ControlQuantity::indentation)
+      point.pressure_error = std::abs(point.pressure - half.pressure);
+    else
+      point.indentation_error = std::abs(point.indentation - half.indentation);
   }
-  return result;
+  fine.converged = fine.converged && coarse.converged;
+  return fine;
 }
 
 std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const Body& body,

@@ -69,39 +69,43 @@ Axis axis_of(std::string_view name, bool logarithmic, std::string_view label) {
           .logarithmic = logarithmic};
 }
 
-std::string motion_text(const Motion& motion, std::string_view varied) {
-  constexpr auto symbols = std::to_array<std::pair<std::string_view, const char*>>(
-      {{"normal_amplitude", "u_z"},
-       {"tangential_amplitude", "u_x"},
-       {"phase", "φ_0"},
-       {"drag_velocity", "v"},
-       {"angular_frequency", "ω/2π"},
-       {"normal_angular_frequency", "ω_z/2π"},
-       {"tangential_angular_frequency", "ω_x/2π"}});
+std::string motion_text(const Motion& motion, std::string_view varied, double excursion) {
+  const auto with = [&](const char* before, std::string_view name, double value,
+                        Dimension dimension) {
+    return name == varied || std::isnan(value)
+               ? std::string()
+               : before + (dimension == Dimension::angle
+                               ? fmt::format("{:.4g}°", value * 180 / std::numbers::pi)
+                               : format_quantity(value, dimension, 4));
+  };
+  const auto at = [&](std::string_view name, double angular_frequency) {
+    return angular_frequency > 0 ? with(" at ", name, angular_frequency / (2 * std::numbers::pi),
+                                        Dimension::frequency)
+                                 : "";
+  };
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    return "slow shear" + with(" over ", "excursion", excursion, Dimension::length) +
+           with(" at ", "drag_velocity", drag->drag_velocity, Dimension::velocity) +
+           with(" under ", "normal_amplitude", drag->normal_amplitude, Dimension::length) +
+           at("angular_frequency", drag->angular_frequency);
   std::vector<std::string> parts;
-  std::visit(
-      [&]<class M>(const M& one) {
-        describe(
-            [&](auto member, const auto& line) {
-              if constexpr (std::is_same_v<std::remove_cvref_t<decltype(one.*member)>, double>) {
-                const auto symbol = std::ranges::find(
-                    symbols, line.name, [](const auto& known) { return known.first; });
-                if (symbol == symbols.end() || line.name == varied) return;
-                const double value = one.*member;
-                const bool frequency = line.name.ends_with("frequency");
-                if (frequency && !(value > 0)) return;
-                parts.push_back(fmt::format(
-                    "{} = {}", symbol->second,
-                    line.name == "phase"
-                        ? fmt::format("{:.4g}°", value * 180 / std::numbers::pi)
-                        : format_quantity(frequency ? value / (2 * std::numbers::pi) : value,
-                                          frequency ? Dimension::frequency : line.dimension, 4)));
-              }
-            },
-            std::type_identity<M>{});
-      },
-      motion);
-  return fmt::format("{}", fmt::join(parts, ", "));
+  const auto add = [&](std::string text, const char* what, const std::string& frequency) {
+    if (!text.empty()) parts.push_back(text + what + frequency);
+  };
+  const auto add_both = [&](const auto& one, const std::string& normal,
+                            const std::string& tangential) {
+    add(with("", "tangential_amplitude", one.tangential_amplitude, Dimension::length),
+        " tangential", tangential);
+    add(with("", "normal_amplitude", one.normal_amplitude, Dimension::length), " normal", normal);
+    const std::string apart = with(", ", "phase", one.phase, Dimension::angle);
+    return fmt::format("{}{}", fmt::join(parts, " and "), apart.empty() ? "" : apart + " apart");
+  };
+  if (const auto* two = std::get_if<TwoFrequencies>(&motion))
+    return add_both(*two, at("normal_angular_frequency", two->normal_angular_frequency),
+                    at("tangential_angular_frequency", two->tangential_angular_frequency));
+  const auto& equal = std::get<EqualFrequency>(motion);
+  const std::string frequency = at("angular_frequency", equal.angular_frequency);
+  return add_both(equal, "", "") + (frequency.empty() ? "" : "," + frequency);
 }
 
 std::string value_text(double value, const std::string& in) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/figures/figure.hpp>
@@ -18,8 +19,10 @@ namespace salebra::figures {
 
 /// The axis of a quantity that has this name in JSON and files. label: instead of its meaning.
 Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_view label = {});
-/// "u_z = 10 nm, v = 1 mm/s, ω/2π = 20 kHz"; without the quantity of that name and unknown numbers.
-std::string motion_text(const Motion& motion, std::string_view varied = {});
+/// "slow shear over 1 nm at 1 mm/s under 100 pm at 20 kHz"; without the quantity of that name and
+/// unknown numbers. excursion: of a slow shear, m; NaN: not known.
+std::string motion_text(const Motion& motion, std::string_view varied = {},
+                        double excursion = std::numeric_limits<double>::quiet_NaN());
 /// "25.3 nm", in a unit that may get a prefix.
 std::string value_text(double value, const std::string& unit);
 /// "25.3 nm (24.1 … 26.5)"; without the limits where they are unknown.

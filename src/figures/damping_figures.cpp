@@ -365,7 +365,7 @@ Figure figure_of(const IndenterLaw& law, double indentation, const Oscillation& 
           "Tangential stress τ (a) and pressure p (c) over the radius and the phase of the "
           "normal motion, white outside the contact, whose edge is the black line; τ "
           "over the radius while the indenter is pulled out (b) and pressed in (d). "
-          "Both singularities go beyond the scale. " +
+          "Both singularities go beyond the scale. Motion: " +
           std::visit([](const auto& one) { return motion_text(one); }, motion) +
           ", δ = " + format_quantity(indentation, Dimension::length, 4) + ".",
       .columns = 2};

@@ -67,7 +67,7 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   if (!outcomes.empty()) {
     const OscillationCase& run = outcomes.front().run;
     figure.caption += fmt::format(
-        " {}{}, mean indentation δ = {}; {} boundary; {}.",
+        " Motion: {}{}, mean indentation δ = {}; {} boundary; {}.",
         std::visit([](const auto& motion) { return motion_text(motion); }, run.motion),
         std::isfinite(outcomes.front().friction_coefficient) && outcomes.front().frictional
             ? fmt::format(", µ = {:.3g}", outcomes.front().friction_coefficient)

@@ -368,10 +368,8 @@ class Pictures {
 
 std::string motion_sentence(const StudyNumbers& numbers) {
   return "Motion: " +
-         std::visit([](const auto& motion) { return motion_text(motion); }, *numbers.motion) +
-         (std::isnan(numbers.excursion)
-              ? ""
-              : ", X = " + format_quantity(numbers.excursion, Dimension::length, 4)) +
+         std::visit([&](const auto& motion) { return motion_text(motion, {}, numbers.excursion); },
+                    *numbers.motion) +
          (numbers.hold == Hold::indentation ? ", mean indentation held"
           : numbers.hold == Hold::force     ? ", mean force held"
                                             : ", mean force held where the contact lifts off") +

@@ -47,7 +47,7 @@ struct StudyNumbers {
 
 StudyNumbers numbers_of(const StudyResult& result);
 
-/// "Motion: u_z = 100 pm, v = 1 mm/s, ω/2π = 20 kHz, mean indentation held, along x, µ = 0.3."
+/// "Motion: slow shear at 1 mm/s under 100 pm at 20 kHz, mean indentation held, along x, µ = 0.3."
 std::string motion_sentence(const StudyNumbers& numbers);
 
 /// The pictures of one point of the parameter grid, with one panel each: gap, area and stiffness over

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of losses on a viscoelastic body, of an indenter and of a rough surface.
+// Figures of losses on a viscoelastic body, of an indenter and of a rough surface, and of its creep.
+#include <algorithm>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
@@ -69,9 +70,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   using C = ViscoelasticCycle;
   Figure figure{.kind = "viscoelastic_cycle",
                 .caption =
-                    "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
-                    "two directions of motion, with the part that cells release when they leave. "
-                    "(b) Stiffnesses in and out of phase.",
+                     "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
+                     "normal and the tangential motion, with the part that cells release when they "
+                     "leave. (b) Stiffnesses in and out of phase.",
                 .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = x,
@@ -91,6 +92,36 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
       curve("tangential, storage", "tangential_storage_stiffness",
             &C::tangential_storage_stiffness),
       curve("tangential, loss", "tangential_loss_stiffness", &C::tangential_loss_stiffness)};
+  return figure;
+}
+
+Figure figure_of(const ViscoelasticPath& path) {
+  using P = ViscoelasticPoint;
+  const auto column = [&](double P::*value) {
+    std::vector<double> out;
+    for (const P& point : path.points) out.push_back(point.*value);
+    return out;
+  };
+  const std::vector<double> time = column(&P::time);
+  const Axis x = axis_of("time", spans_decades(time));
+  const bool held = std::ranges::all_of(path.points, [&](const P& point) {
+    return point.indentation == path.points.front().indentation;
+  });
+  Figure figure{.kind = "viscoelastic_path",
+                .caption = held ? "Relaxation of the pressure, and the contact area."
+                                : "Creep of a rough contact on a viscoelastic body, and its area.",
+                .columns = 2};
+  const std::string first = held ? "pressure" : "indentation";
+  figure.panels.push_back({.x = x, .y = axis_of(first)});
+  figure.panels.back().curves = {{.quantity = first,
+                                  .x = time,
+                                  .y = column(held ? &P::pressure : &P::indentation),
+                                  .style = Style::line_and_points}};
+  figure.panels.push_back({.x = x, .y = axis_of("contact_area_fraction")});
+  figure.panels.back().curves = {{.quantity = "contact_area_fraction",
+                                  .x = time,
+                                  .y = column(&P::contact_area_fraction),
+                                  .style = Style::line_and_points}};
   return figure;
 }
 

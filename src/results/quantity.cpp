@@ -54,9 +54,9 @@ const Column* entry_of(std::string_view name) {
       MaxMotion, Assumption, Loss, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint,
       RegimePoint, Slider, SliderMotion, SliderStability, SliderThresholds, OscillatorDecay,
       FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss,
-      ViscoelasticCycle, SurfaceDamping, Anisotropy, NonGaussianSurface, Conductances,
-      ContactDistributions, FlowFactors, AdhesionOfState, AdhesiveCycle, AdhesivePoint, SurfaceLay,
-      TwinDraw, ProfileParameters, GaussianFilters>(name);
+      ViscoelasticCycle, ViscoelasticPoint, SurfaceDamping, Anisotropy, NonGaussianSurface,
+      Conductances, ContactDistributions, FlowFactors, AdhesionOfState, AdhesiveCycle,
+      AdhesivePoint, SurfaceLay, TwinDraw, ProfileParameters, GaussianFilters>(name);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ Body read_layers(TomlTable& root, std::vector<TomlTable> tables) {
   auto base = root.table("base");
   if (!base) return Body::layered(layers);
   const ElasticBody material = read_elastic(*base);
+  base->check(material.young > 0, "young", "must be > 0; a rigid base of layers is left out");
   base->require_no_other_keys();
   return base->located([&] {
     return layers.empty() ? Body::half_space(material) : Body::layered(layers, material);

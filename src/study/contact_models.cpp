@@ -56,9 +56,8 @@ AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& 
   const AdhesionPlan& plan = *work.configuration.adhesion;
   std::vector<OperatingPoint> gaps;
   for (const double gap : plan.cycle) gaps.push_back(at_mean_gap(gap));
-  const AdhesiveCycle cycle =
-      adhesive_cycle(work.surface, work.configuration.material.contact_modulus, gaps, plan.adhesion,
-                     {.contact = contact, .unload = true});
+  const AdhesiveCycle cycle = adhesive_cycle(work.surface, work.configuration.pressed(), gaps,
+                                             plan.adhesion, {.contact = contact, .unload = true});
   AdhesionOfSurface found{cycle, std::vector<AdhesionSample>(gaps.size())};
   if (!cycle.converged()) return found;
   for (std::size_t k = 0; k < gaps.size(); ++k) {
@@ -73,23 +72,24 @@ AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& 
 /// the loading cycle.
 ModelResult adhesive_elements(ModelWork& work, const SweepOptions& sweep) {
   const AdhesionPlan& plan = *work.configuration.adhesion;
+  const Body body = work.configuration.pressed();
   ModelResult result = no_curve(work);
   ForceCurve& curve = result.curve;
   curve.model = "bem";
   curve.nominal_area = work.surface.grid.area();
   curve.rms_height = work.realisation.heights.rms_height;
   curve.adhesive = true;
+  curve.body = body.fingerprint();
   AdhesiveCycleOptions options{
       .contact = {.contact = {.on_progress = work.progress}, .force_coarse = plan.force_coarse}};
   std::size_t k = 0;
   options.on_state = [&](bool, const AdhesiveContactState& state) {
-    curve.samples[k] = force_sample(state, work.surface, work.configuration.material, sweep);
+    curve.samples[k] = force_sample(state, work.surface, body, sweep);
     sweep.on_state(k++, state);
   };
   std::vector<OperatingPoint> loads;
   for (const double pressure : work.pressures) loads.push_back(at_pressure(pressure));
-  adhesive_cycle(work.surface, work.configuration.material.contact_modulus, loads, plan.adhesion,
-                 options);
+  adhesive_cycle(work.surface, body, loads, plan.adhesion, options);
   if (!plan.cycle.empty()) work.realisation.adhesion = cycle_of(work, options.contact);
   result.pull_off_pressure = work.realisation.adhesion.pull_off_pressure;
   return result;

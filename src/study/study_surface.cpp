@@ -137,7 +137,6 @@ double modulus_of(const StudyConfiguration& configuration, const Communicator& c
   const Conduction& conduction = configuration.conduction;
   for (const auto& [given, what] :
        {std::pair{configuration.models != std::vector{ContactModel::bem}, "the models of summits"},
-        {configuration.adhesion.has_value(), "adhesion"},
         {!conduction.conductivity.empty() || !conduction.resistivity.empty(), "conductance"},
         {!std::isnan(configuration.known.hardness), "a `hardness`"},
         {configuration.damping.amplitude == Amplitude::small, "the small amplitude"},

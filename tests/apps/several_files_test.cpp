@@ -222,3 +222,35 @@ TEST_CASE("Folders, patterns and names mean the same files", "[several]") {
   // The law is that of the heights before the filters.
   CHECK(alone["hurst"] == test.answer("statistics maps/2.gsf")["hurst"]);
 }
+
+TEST_CASE("Losses on rubber of several surfaces have the 95 % interval of their mean",
+          "[several]") {
+  const ProgramTest test;
+  test.write("rubber.toml",
+             "[base]\nyoung = 3e6\npoisson = 0.5\n[[relaxation]]\nweight = 2\ntime = 0.02\n");
+  for (const std::string seed : {"1", "2", "3"})
+    test.done(
+        "generate --points 16 --size-x 1mm --hurst 0.8 --rolloff 500um --short-cutoff 500um "
+        "--rms-height 5um --seed " +
+        seed + " -o " + seed + ".h5");
+  const std::string text =
+      test.done(
+              "viscoelastic 1.h5 2.h5 3.h5 --body rubber.toml --pressure 10kPa --frequency 10 "
+              "--mode equal-frequency --normal-amplitude 0.3um --tangential-amplitude 0.3um "
+              "--phase 90deg --steps 16")
+          .out;
+  // The losses per area, which follow the damping constants.
+  const double mean = std::stod(line_of(text, "mean").at(4)),
+               spread = std::stod(line_of(text, "spread").at(2)),
+               low = std::stod(line_of(text, "mean,").at(5)),
+               high = std::stod(line_of(text, "to").at(2));
+  double sum = 0;
+  for (const std::string file : {"1.h5", "2.h5", "3.h5"})
+    sum += std::stod(line_of(text, file).at(2));
+  CHECK(mean == Approx(sum / 3).epsilon(0.01));
+  // Student's t for three values is 4.303.
+  const double arm = 4.303 * spread / std::sqrt(3.0);
+  REQUIRE(arm < mean);
+  CHECK(low == Approx(mean - arm).margin(0.02 * mean));
+  CHECK(high == Approx(mean + arm).margin(0.02 * mean));
+}

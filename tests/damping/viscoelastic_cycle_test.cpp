@@ -183,29 +183,32 @@ TEST_CASE("Creep is the elastic contact at the creep compliance while the contac
   const RoughContact contact;
   const double g = 3, pressure = contact.point.value;
   const auto creep = [&](int steps) {
-    std::vector<double> time;
-    for (int n = 0; n <= steps; ++n) time.push_back(6 * tau * n / steps);
-    const std::vector<double> pressures(time.size(), pressure);
-    const ViscoelasticPath path = viscoelastic_path(contact.surface, rubber, standard_solid, time,
-                                                    {ControlQuantity::pressure, pressures});
+    const std::vector<double> times{0, 1.5 * tau, 3 * tau, 4.5 * tau, 6 * tau};
+    const ViscoelasticPath path =
+        viscoelastic_path(contact.surface, rubber, standard_solid, times,
+                          {ControlQuantity::pressure, {pressure}}, {.steps = steps});
     REQUIRE(path.converged);
     double worst = 0;
-    for (const double part : {0.0, 0.5, 1.0}) {
-      const auto n = static_cast<std::size_t>(part * steps);
+    for (const ViscoelasticPoint& point : path.points) {
       // One branch: J(t) G∞ = 1 − g/(1 + g) exp(−t/(τ(1 + g))).
-      const double compliance = 1 - g / (1 + g) * std::exp(-time[n] / (tau * (1 + g)));
+      const double compliance = 1 - g / (1 + g) * std::exp(-point.time / (tau * (1 + g)));
       const NormalContactState elastic =
           press(contact.surface, stiffer(1 / compliance), contact.point);
-      CHECK(path.force[n] == Approx(elastic.force).epsilon(1e-9));
-      worst = std::max(worst, std::abs(path.indentation[n] / elastic.indentation - 1));
-      CHECK(path.contact_area_fraction[n] ==
+      CHECK(point.force == Approx(elastic.force).epsilon(1e-9));
+      CHECK(point.pressure == Approx(pressure).epsilon(1e-9));
+      CHECK(std::isnan(point.pressure_error));
+      const double error = std::abs(point.indentation - elastic.indentation);
+      CHECK(error <= point.indentation_error + 1e-9 * elastic.indentation);
+      worst = std::max(worst, error / elastic.indentation);
+      CHECK(point.mean_gap == Approx(elastic.mean_gap).epsilon(3e-3));
+      CHECK(point.contact_area_fraction ==
             Approx(elastic.contact_area_fraction).margin(2.0 / 1024));
     }
-    CHECK(std::ranges::is_sorted(path.contact_area_fraction));
+    CHECK(std::ranges::is_sorted(path.points, {}, &ViscoelasticPoint::contact_area_fraction));
     return worst;
   };
-  // The first sample is exact; the order in the steps is at least 1.7.
-  const double coarse = creep(12), fine = creep(48);
+  // The first point is exact; the order in the steps is at least 1.7.
+  const double coarse = creep(4), fine = creep(16);
   CAPTURE(coarse, fine);
   CHECK(fine < 3e-4);
   CHECK(fine < coarse / 10);
@@ -213,15 +216,34 @@ TEST_CASE("Creep is the elastic contact at the creep compliance while the contac
 
 TEST_CASE("A surface without load recovers to its shape", "[viscoelastic_cycle]") {
   const RoughContact contact;
-  const ViscoelasticPath path = viscoelastic_path(
-      contact.surface, rubber, standard_solid, std::vector{0.0, tau, 2 * tau, 3 * tau, 100 * tau},
-      {ControlQuantity::pressure, {4e4, 4e4, 0, 0, 0}});
-  REQUIRE(path.converged);
+  const std::vector<ViscoelasticPoint> path =
+      viscoelastic_path(contact.surface, rubber, standard_solid,
+                        std::vector{0.0, tau, 2 * tau, 3 * tau, 100 * tau},
+                        {ControlQuantity::pressure, {4e4, 4e4, 0, 0, 0}}, {.steps = 2})
+          .points;
   // The contact touches the recovering surface from above, below the first touch of a flat one.
-  CHECK(path.indentation[2] > path.indentation[3]);
-  CHECK(path.indentation[3] > 0.01 * path.indentation[0]);
-  CHECK(std::abs(path.indentation[4]) < 0.05 * path.indentation[3]);
-  CHECK(path.force[2] == 0);
+  CHECK(path[2].indentation > path[3].indentation);
+  CHECK(path[3].indentation > 0.01 * path[0].indentation);
+  CHECK(std::abs(path[4].indentation) < 0.05 * path[3].indentation);
+  CHECK(path[2].force == 0);
+}
+
+TEST_CASE("A held indentation relaxes its force to that of the relaxed body",
+          "[viscoelastic_cycle]") {
+  const RoughContact contact;
+  const double g = 3, depth = contact.rest.indentation;
+  // A held indentation keeps contact and displacements, so that the force follows G(t).
+  for (const ViscoelasticPoint& point :
+       viscoelastic_path(contact.surface, rubber, standard_solid,
+                         std::vector{0.0, 0.5 * tau, 2 * tau, 40 * tau},
+                         {ControlQuantity::indentation, {depth}}, {.steps = 2})
+           .points) {
+    CHECK(point.force ==
+          Approx((1 + g * std::exp(-point.time / tau)) * contact.rest.force).epsilon(1e-6));
+    CHECK(point.indentation == Approx(depth).epsilon(1e-12));
+    CHECK(point.pressure_error <= 1e-6 * point.pressure);
+    CHECK(std::isnan(point.indentation_error));
+  }
 }
 
 TEST_CASE("The steady state does not depend on the start, and may keep the mean force",
@@ -304,6 +326,30 @@ TEST_CASE("A loss that does not exceed its error is not stated", "[viscoelastic_
   CHECK(!(elastic.work_per_cycle < 0));
 }
 
+TEST_CASE("A frequency without a steady state has no numbers, and the others keep theirs",
+          "[viscoelastic_cycle]") {
+  const RoughContact contact;
+  // The branch forgets within cycles at the first and the last frequency, and after 1e5 cycles at
+  // the second one.
+  const PronySeries series{1, {{3, 1e4 * tau}}};
+  const std::vector<double> frequencies{1e-4 / tau, 100 / tau, 1e-4 / tau};
+  const auto found =
+      viscoelastic_sweep(contact.surface, rubber, series, contact.motion(1), contact.point,
+                         frequencies, {.steps = 16, .max_cycles = 20});
+  REQUIRE(found.size() == 3);
+  for (const std::size_t k : {0u, 2u}) {
+    CHECK(found[k].converged());
+    CHECK(found[k].work_per_cycle > 0);
+  }
+  CHECK(found[2].work_per_cycle == Approx(found[0].work_per_cycle).epsilon(2e-3));
+  CHECK(found[1].termination == Termination::iteration_limit);
+  CHECK(found[1].angular_frequency == frequencies[1]);
+  for (const double number : {found[1].work_per_cycle, found[1].damping_constant,
+                              found[1].mean_force, found[1].contact_area_max})
+    CHECK(std::isnan(number));
+  CHECK(found[1].samples.empty());
+}
+
 TEST_CASE("What has no meaning on a viscoelastic body is refused", "[viscoelastic_cycle]") {
   const RoughContact contact;
   const auto cycle = [&](const EqualFrequency& motion, const OperatingPoint& point,
@@ -321,5 +367,12 @@ TEST_CASE("What has no meaning on a viscoelastic body is refused", "[viscoelasti
                   InvalidInput);
   CHECK_THROWS_AS(viscoelastic_path(contact.surface, rubber, broad, std::vector{0.0},
                                     {ControlQuantity::mean_gap, {1e-6}}),
+                  InvalidInput);
+  for (const int steps : {0, 3})
+    CHECK_THROWS_AS(viscoelastic_path(contact.surface, rubber, broad, std::vector{0.0},
+                                      {ControlQuantity::pressure, {1e4}}, {.steps = steps}),
+                    InvalidInput);
+  CHECK_THROWS_AS(viscoelastic_path(contact.surface, rubber, broad, std::vector{0.0, 1.0, 2.0},
+                                    {ControlQuantity::pressure, {1e4, 2e4}}),
                   InvalidInput);
 }

@@ -12,6 +12,7 @@ import re
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -494,6 +495,48 @@ def test_rough_contacts_on_rubber_lose_what_their_branches_dissipate() -> None:
     assert middle.normal_force.max() > middle.mean_force
     with pytest.raises(salebra.InvalidInput, match="steps"):
         salebra.viscoelastic_sweep(surface, rubber, prony, motion, [1.0], pressure=1e4, steps=15)
+
+
+def test_a_law_of_a_body_takes_no_constants_of_half_spaces() -> None:
+    surface = generated(32, rms_height=1e-6)
+    film = salebra.Body.layered([(1e-4, 3e9, 0.4)])
+    curve = salebra.sweep_pressures(surface, film, [1e6, 2e6, 5e6, 1e7, 2e7], stick=True)
+    law = salebra.TabulatedLaw(curve)
+    assert law.tangential_stiffness(curve.indentation[2]) == pytest.approx(curve.tangential_stiffness[2])
+    with pytest.raises(salebra.InvalidInput, match="modulus_ratio: 0.8 is of half-spaces"):
+        salebra.TabulatedLaw(curve, 0.8)
+    of_half_space = salebra.sweep_pressures(surface, 1e9, [1e6, 2e6, 5e6, 1e7, 2e7])
+    assert salebra.TabulatedLaw(of_half_space, 0.8).modulus_ratio == 0.8
+    with pytest.raises(salebra.InvalidInput, match="tangential_stiffness: is not known"):
+        salebra.TabulatedLaw(of_half_space)
+
+
+def test_creep_is_the_elastic_contact_at_the_creep_compliance(tmp_path: Path, program: Callable[..., Any]) -> None:
+    surface = generated(32, rms_height=5e-6)
+    tau, g, modulus = 0.02, 2.0, 3e6
+    rubber, prony = salebra.Body.half_space(salebra.ElasticBody(modulus, 0.5)), salebra.PronySeries(1.0, [(g, tau)])
+    time = [0.0, 0.01, 0.04, 0.2, 2.0]
+    creep = salebra.viscoelastic_path(surface, rubber, prony, time, pressure="50 kPa")
+    assert creep.converged and creep.time.tolist() == time
+    for k, t in enumerate(time):
+        # Lee and Radok, for one branch.
+        compliance = 1 - g / (1 + g) * math.exp(-t / (tau * (1 + g)))
+        elastic = salebra.press(surface, salebra.Body.half_space(salebra.ElasticBody(modulus / compliance, 0.5)), pressure=5e4)
+        assert abs(creep.indentation[k] - elastic.indentation) <= creep.indentation_error[k] + 1e-9 * elastic.indentation
+        assert creep.contact_area_fraction[k] == pytest.approx(elastic.contact_area_fraction, abs=2 / 1024)
+        assert creep.force[k] == pytest.approx(elastic.force, rel=1e-9)
+    assert creep.contact_pressure == pytest.approx(elastic.contact_pressure, abs=1e-4 * elastic.contact_pressure.max())
+    assert np.diff(creep.contact_area_fraction).min() >= 0 and creep.contact_area_fraction[-1] > 1.5 * creep.contact_area_fraction[0]
+    assert max(creep.indentation_error) < 1e-3 * creep.indentation[-1]
+    salebra.write_surface(tmp_path / "tread.h5", surface)
+    file = tmp_path / "rubber.toml"
+    file.write_text(f'[base]\nyoung = {modulus}\npoisson = 0.5\n[[relaxation]]\nweight = {g}\ntime = {tau}\n')
+    answer = program("viscoelastic", tmp_path / "tread.h5", "--body", file, "--pressure", "50kPa", "--creep", ",".join(map(str, time)))
+    for name in ("time", "pressure", "force", "indentation", "indentation_error", "mean_gap", "contact_area_fraction"):
+        assert answer[name] == pytest.approx(getattr(creep, name).tolist(), rel=1e-12), name
+    for given, message in ({}, "path"), ({"pressure": [1e4, 2e4]}, "pressure"), ({"pressure": 1e4, "steps": 3}, "steps"):
+        with pytest.raises(salebra.InvalidInput, match=message):
+            salebra.viscoelastic_path(surface, rubber, prony, time, **given)
 
 
 def test_a_body_has_its_loss_by_pressures_and_its_cycle_with_friction() -> None:

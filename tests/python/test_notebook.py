@@ -152,6 +152,7 @@ def makers() -> dict[str, Callable[[], Any]]:
             tangential_angular_frequency=1e4),
         "ViscoelasticDamping": lambda: salebra.viscoelastic_damping(law, prony, salebra.sample(EQUAL, 1e-6, 32), springs=8),
         "ViscoelasticIndentation": lambda: salebra.viscoelastic_indentation(law, prony, [0.0, 1e-3], [0.0, 1e-6], springs=8),
+        "ViscoelasticPath": lambda: salebra.viscoelastic_path(surface, MATERIAL, prony, [0.0, 1e-3, 1e-2], pressure=1e5, steps=2),
         "WindowSensitivity": lambda: salebra.window_sensitivity(curve, (1e5, 5e6)),
     }
 

@@ -210,9 +210,9 @@ TEST_CASE("A page draws the panels that the program draws of the same study, to 
   study.stick = false;
   CHECK(figures::figure_of(run_study(study)).panels.size() == drawn.size() - 1);
   CHECK_THAT(figures::figure_of(result).caption, Contains(shown["motion"].get<std::string>()));
-  CHECK_THAT(shown["motion"].get<std::string>(),
-             Contains("Motion: u_z = ") && Contains("X = 2 µm") &&
-                 Contains("mean indentation held") && Contains("µ = 0.3"));
+  CHECK_THAT(shown["motion"].get<std::string>(), Contains("Motion: slow shear over 2 µm at ") &&
+                                                     Contains("mean indentation held") &&
+                                                     Contains("µ = 0.3"));
 }
 
 TEST_CASE("Direct results stand beside the damping of the same motion and of no other",

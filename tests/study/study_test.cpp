@@ -428,6 +428,42 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   CHECK_THROWS_WITH(run_study(hard), Catch::Contains("hardness"));
 }
 
+TEST_CASE("A study with adhesion on layers has the cycles of its surfaces on this body",
+          "[study][adhesion]") {
+  StudyConfiguration configuration =
+      parse_study_configuration(adhesive_study_text(), "sticky.toml");
+  configuration.models = {ContactModel::bem};
+  const ElasticBody same{configuration.material.contact_modulus * (1 - 0.3 * 0.3), 0.3};
+  const StudyResult half_space = run_study(configuration);
+  const Surface surface = study_surface(configuration, half_space.realisations.front().seed);
+  const std::vector<double> pressures = half_space.pressures;
+  configuration.relative_pressures = false;
+  configuration.pressures = pressures;
+  const auto on = [&](const Body& body) {
+    configuration.press_on(body);
+    REQUIRE(configuration.body);
+    return run_study(configuration);
+  };
+  // A layer on a base of the same material is a half-space, solved as a body.
+  const StudyResult alike = on(Body::layered({{1e-6, same.young, 0.3}}, same));
+  for (const auto& number :
+       {&AdhesiveCycleNumbers::pull_off_pressure, &AdhesiveCycleNumbers::adhesion_work_per_cycle})
+    CHECK(alike.adhesion_cycle(number).mean ==
+          Approx(half_space.adhesion_cycle(number).mean).epsilon(1e-4));
+  CHECK(alike.curve(&ForceSample::mean_gap)[0].mean ==
+        Approx(half_space.curve(&ForceSample::mean_gap)[0].mean).epsilon(1e-6));
+  // A film sticks as the cycle of each surface says.
+  const Body film = Body::layered({{0.2 * surface.grid.lx, same.young, 0.3}});
+  const StudyResult stuck = on(film);
+  std::vector<OperatingPoint> gaps;
+  for (const double gap : configuration.adhesion->cycle) gaps.push_back(at_mean_gap(gap));
+  const AdhesiveCycle cycle =
+      adhesive_cycle(surface, film, gaps, configuration.adhesion->adhesion, {.unload = true});
+  CHECK(stuck.realisations.front().adhesion.pull_off_pressure == cycle.pull_off_pressure);
+  CHECK(stuck.realisations.front().adhesion.pull_off_pressure !=
+        Approx(half_space.realisations.front().adhesion.pull_off_pressure).epsilon(1e-3));
+}
+
 TEST_CASE("A study keeps one mean value at all its loads, and says which", "[study]") {
   // The lowest load lifts off under 30 nm, three rms heights; the highest would not.
   std::string text = study_text("seeds = [1, 2]", 5);

@@ -23,45 +23,82 @@
 /// with u and y_k at the beginning of the step.
 namespace salebra {
 
+/// The contact at one time of a path.
+struct ViscoelasticPoint {
+  double time = 0;         ///< s, as given
+  double pressure = 0;     ///< nominal pressure, Pa
+  double force = 0;        ///< F, N
+  double indentation = 0;  ///< δ from first touch of the undeformed body, m
+  /// Changes since half as many steps, Pa and m; NaN for the quantity that is prescribed.
+  double pressure_error = std::numeric_limits<double>::quiet_NaN();
+  double indentation_error = std::numeric_limits<double>::quiet_NaN();
+  double mean_gap = 0;               ///< m
+  double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
+};
+
+constexpr void describe(auto&& visit, std::type_identity<ViscoelasticPoint>) {
+  using S = ViscoelasticPoint;
+  using enum Dimension;
+  visit(&S::time, quantity::time);
+  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
+  visit(&S::force, quantity::force);
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::pressure_error,
+        Quantity{"pressure_error", Dimension::pressure, "error of the pressure by the time steps"});
+  visit(&S::indentation_error,
+        Quantity{"indentation_error", length, "error of the indentation by the time steps"});
+  visit(&S::mean_gap, Quantity{"mean_gap", length, "mean gap of the deformed surfaces"});
+  visit(&S::contact_area_fraction,
+        Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"});
+}
+
 /// A contact along a path in time.
 struct ViscoelasticPath {
-  std::vector<double> force;                  ///< F at the samples, N
-  std::vector<double> indentation;            ///< δ from first touch of the undeformed body, m
-  std::vector<double> contact_area_fraction;  ///< cells with p > 0 over all cells
-  NormalContactState last;  ///< pressures and gap at the last sample; its elastic energy is NaN
-  bool converged = false;   ///< false: do not use the numbers
+  std::vector<ViscoelasticPoint> points;  ///< one for each time
+  Field contact_pressure;                 ///< p of each cell at the last time, Pa
+  Field gap;                              ///< at the last time, m
+  bool converged = false;                 ///< false: do not use the numbers
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ViscoelasticPath>) {
   using S = ViscoelasticPath;
-  visit(&S::force, Kept{"force", "normal force at the samples", Dimension::force});
-  visit(&S::indentation, Kept{"indentation", "indentation at the samples", Dimension::length});
-  visit(&S::contact_area_fraction,
-        Kept{"contact_area_fraction", "contact area over nominal area at the samples"});
-  visit(&S::last, Part{"last", "contact at the last sample"});
+  visit(&S::points, Table{"points", "over the time"});
+  visit(&S::contact_pressure,
+        Kept{"contact_pressure", "contact pressure of each cell at the last time",
+             Dimension::pressure});
+  visit(&S::gap, Kept{"gap", "gap of each cell at the last time", Dimension::length});
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
+struct ViscoelasticPathOptions {
+  int steps = 16;  ///< straight steps between neighbouring times, even, >= 2
+  NormalContactOptions contact = {};
+  Progress on_progress = {};
+};
+
 /// Presses a surface on an undisturbed body along a path of a control quantity, for example creep
 /// under a constant pressure:
-///     const PronySeries rubber{1e6, {{3e6, 0.02}}};
+///     const Body rubber = Body::half_space({3e6, 0.5});  // the relaxed constants
 ///     const ViscoelasticPath creep =
-///         viscoelastic_path(surface, body, rubber, time, {ControlQuantity::pressure, loads});
-/// The value at the first sample is reached at once, with the unrelaxed response. A value <= 0
-/// means no load or, for an indentation, a surface above the undeformed body.
+///         viscoelastic_path(surface, rubber, {1, {{3, 0.02}}}, std::vector{0.0, 0.01, 0.1},
+///                           {ControlQuantity::pressure, {1e5}});
+/// The value at the first time is reached at once, with the unrelaxed response; between the times
+/// the value is straight. A value <= 0 means no load or, for an indentation, a surface above the
+/// undeformed body.
 /// body        relaxed response; any body under a periodic surface, a half-space also under a free
 ///             one
 /// relaxation  Prony series; only G_k/G∞ and τ_k are used
-/// time        s, increasing, at least one value; displacements are straight between the samples,
-///             and errors are of second order in the steps
-/// path        pressure, force or indentation at each time
+/// time        s, increasing, at least one value; displacements are straight within the steps
+///             between the times, and errors are of second order in the steps. `steps` and steps/2
+///             are both computed; the change is the error, three times that of a second-order rule
+/// path        pressure, force or indentation at each time, or one value that is held
 /// throws      InvalidInput for arguments that violate these conditions or those of press(), for a
-///             finite hardness and for a mean gap; Interrupted if options.on_progress says stop
-/// cost        one press() for each sample
+///             finite hardness and for a mean gap; Interrupted if on_progress says stop
+/// cost        3/2 · steps · times contacts
 ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
                                    const PronySeries& relaxation, std::span<const double> time,
                                    const OperatingPoints& path,
-                                   const NormalContactOptions& options = {});
+                                   const ViscoelasticPathOptions& options = {});
 
 struct ViscoelasticCycleOptions {
   int steps = 64;  ///< straight steps per cycle, even, >= 16
@@ -130,12 +167,13 @@ struct ViscoelasticCycle {
   /// Largest estimated distance from the periodic state, as ViscoelasticCycleOptions::tolerance.
   double residual = 0;
   /// Worst outcome of all solves and of the search of the periodic state; unless it is `converged`,
-  /// the numbers must not be used.
+  /// the numbers are NaN.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
   /// Makes NaN what does not exceed its error: all numbers of the loss, or only those of
-  /// tangential_work alone (damping constant and tangential loss stiffness).
+  /// tangential_work alone (damping constant and tangential loss stiffness). Without a steady state,
+  /// only the frequency, cycles and residual are left.
   void drop_uncertain();
 };
 
@@ -211,7 +249,9 @@ ViscoelasticCycle viscoelastic_cycle(const Surface& surface, const Body& body,
                                      const ViscoelasticCycleOptions& options = {});
 
 /// The same motion at several frequencies, each > 0, rad/s. The search of each periodic state
-/// starts from that of the frequency before, so that neighbours should follow each other:
+/// starts from that of the frequency before, so that neighbours should follow each other. A
+/// frequency without a steady state has no numbers, and `termination` says why; the others have
+/// theirs:
 ///     const auto sweep =
 ///         viscoelastic_sweep(surface, rubber, series, motion, point, std::vector{10.0, 100.0});
 std::vector<ViscoelasticCycle> viscoelastic_sweep(const Surface& surface, const Body& body,

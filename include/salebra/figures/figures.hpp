@@ -59,6 +59,7 @@ struct ViscoelasticCycle;
 struct ViscoelasticDamping;
 struct ViscoelasticIndentation;
 struct ViscoelasticLoss;
+struct ViscoelasticPath;
 }  // namespace salebra
 
 /// The figures of results: what is drawn of each, for every renderer.
@@ -217,6 +218,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
 /// of which `values` has one for each cycle.
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticCycle>& cycles);
+
+/// Indentation, or pressure where the indentation is held, and contact area over the time.
+Figure figure_of(const ViscoelasticPath& path);
 
 /// Gap with the fitted law, area, stiffness, damping and stiffness ratio of all models over the
 /// pressure, with 95 % bands and the damping constants of the study's table with their errors; local

@@ -187,6 +187,8 @@ bool known(const std::vector<Column>& columns, double Column::*quantity) {
 
 TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
     : ContactLaw(modulus_ratio) {
+  require(curve.body.empty() || std::isnan(modulus_ratio), "modulus_ratio", modulus_ratio,
+          "is of half-spaces, and the curve is of another body, whose K_t it has; leave it out");
   const std::vector<Column> columns = usable_samples(curve);
   std::vector<double> indentation, log_force, slope, log_tangential;
   const bool has_normal = known(columns, &Column::normal_stiffness);
