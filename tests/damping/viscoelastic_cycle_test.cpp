@@ -308,7 +308,8 @@ TEST_CASE("A loss that does not exceed its error is not stated", "[viscoelastic_
                           .normal_work = 2.5,
                           .tangential_work = 0.5,
                           .power = 3,
-                          .damping_constant = 7};
+                          .damping_constant = 7,
+                          .termination = Termination::converged};
   cycle.drop_uncertain();
   CHECK(cycle.work_per_cycle == 3);
   CHECK(cycle.normal_work == 2.5);
