@@ -70,9 +70,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   using C = ViscoelasticCycle;
   Figure figure{.kind = "viscoelastic_cycle",
                 .caption =
-                     "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
-                     "normal and the tangential motion, with the part that cells release when they "
-                     "leave. (b) Stiffnesses in and out of phase.",
+                    "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
+                    "normal and the tangential motion, with the part that cells release when they "
+                    "leave. (b) Stiffnesses in and out of phase.",
                 .columns = 2};
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = x,
@@ -107,10 +107,12 @@ Figure figure_of(const ViscoelasticPath& path) {
   const bool held = std::ranges::all_of(path.points, [&](const P& point) {
     return point.indentation == path.points.front().indentation;
   });
-  Figure figure{.kind = "viscoelastic_path",
-                .caption = held ? "Relaxation of the pressure, and the contact area."
-                                : "Creep of a rough contact on a viscoelastic body, and its area.",
-                .columns = 2};
+  Figure figure{
+      .kind = "viscoelastic_path",
+      .caption =
+          held ? "Relaxation of a rough contact on a viscoelastic body. (a) Pressure. (b) Area."
+               : "Creep of a rough contact on a viscoelastic body. (a) Indentation. (b) Area.",
+      .columns = 2};
   const std::string first = held ? "pressure" : "indentation";
   figure.panels.push_back({.x = x, .y = axis_of(first)});
   figure.panels.back().curves = {{.quantity = first,
