@@ -475,7 +475,8 @@ void add_study_command(Program& program) {
                    "also print all models, how the law bends and how the mean converged");
   command.add_flag("--sensitivity", arguments->sensitivity,
                    "also compute how the results respond to the parameters and to each octave of "
-                   "wavelengths: d ln result/d ln parameter. Takes about twenty times as long; "
+                   "wavelengths: d ln result/d ln parameter. Takes one to three times the study, "
+                   "and twenty times on layers and other bodies; "
                    "the answer has them, the file of --output has not");
   command
       .add_option("--tolerance", arguments->tolerances,

@@ -103,9 +103,9 @@ std::vector<std::pair<double, double>> octaves_of(const StudyConfiguration& base
   return octaves;
 }
 
-std::vector<Change> changes_of(const StudyConfiguration& base, const Grid2D& grid,
-                               const SensitivityOptions& options,
-                               std::vector<std::string>& left_out) {
+/// widest: the largest change of ln(parameter) to each side.
+std::vector<Change> changes_of(const StudyConfiguration& base, const Grid2D& grid, bool waves,
+                               double widest, std::vector<std::string>& left_out) {
   std::vector<Change> changes;
   for (const auto& [parameter, name] : EnumNames<StudyParameter>::values) {
     if (parameter == StudyParameter::rms_height) {
@@ -118,14 +118,14 @@ std::vector<Change> changes_of(const StudyConfiguration& base, const Grid2D& gri
     if (std::isnan(value_of(base, parameter))) continue;
     Change change = change_of(base, parameter);
     try {
-      for (const double factor : {-2.0, 2.0}) change.configuration(factor * options.step);
+      for (const double side : {-widest, widest}) change.configuration(side);
       changes.push_back(std::move(change));
     } catch (const InvalidInput& refusal) {
       left_out.push_back(fmt::format("{} cannot change by {:.2g} %: {}", name,
-                                     100 * std::expm1(2 * options.step), refusal.what()));
+                                     100 * std::expm1(widest), refusal.what()));
     }
   }
-  if (options.waves)
+  if (waves)
     for (const auto& [shortest, longest] : octaves_of(base, grid))
       changes.push_back(change_of_waves(base, "waves", unknown, shortest, longest));
   return changes;
@@ -473,8 +473,10 @@ StudySensitivity study_sensitivity(const StudyConfiguration& configuration,
                           .step = options.step,
                           .parameters = {},
                           .left_out = {}};
+  // A single surface is also changed by two steps.
+  const double widest = (result.surfaces == 1 ? 2 : 1) * options.step;
   const std::vector<Change> changes =
-      changes_of(study.base(), study.grid(), options, result.left_out);
+      changes_of(study.base(), study.grid(), options.waves, widest, result.left_out);
   const bool by_law = LawNumbers::possible(study.base());
   const std::vector<Sides> sides = sides_of(study, changes, by_law, options.step);
   if (sides.empty()) {

@@ -118,8 +118,8 @@ constexpr void describe(auto&& visit, std::type_identity<StudySensitivity>) {
 
 /// How sensitivities are computed.
 struct SensitivityOptions {
-  double step =
-      0.07;  ///< change s of ln(parameter) to each side, of surfaces and studies, 1e-3 to 0.2
+  /// Change s of ln(parameter) of surfaces and studies to each side, 1e-3 to 0.2.
+  double step = 0.07;
   bool waves = true;  ///< also the octaves of wavelengths that the surfaces have
   Progress on_progress = {};
 };
