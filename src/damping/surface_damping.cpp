@@ -14,6 +14,7 @@
 #include <salebra/surface/moments.hpp>
 
 #include "base/memory.hpp"
+#include "base/stage_time.hpp"
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
@@ -770,6 +771,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
                                                          const Oscillation& motion,
                                                          const std::vector<ForceCurve>& curves,
                                                          const SurfaceDampingOptions& options) {
+  const detail::StageTime time(detail::Stage::oscillation);
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curves, options);

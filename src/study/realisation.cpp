@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "base/stage_time.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
 #include "damping/phase_quadrature.hpp"
@@ -60,6 +61,7 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
 
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
+  const detail::StageTime time(detail::Stage::oscillation);
   const double modulus_ratio = configuration.pressed().modulus_ratio();
   const bool adhesive = configuration.adhesion.has_value();
   std::optional<ExponentialLaw> fitted_law;
@@ -293,6 +295,7 @@ Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
 
 Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, std::uint64_t seed,
                                 const std::vector<double>& pressures, const Progress& progress) {
+  const detail::StageTime time(detail::Stage::statistics);
   StudyConfiguration configuration = asked;
   if (!configuration.found_hold)
     configuration.found_hold = hold_of(asked, drawn, pressures.front(), progress);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "active_set_cg.hpp"
+#include "base/stage_time.hpp"
 #include "contact/half_space/cell_window.hpp"
 #include "tile_sums.hpp"
 
@@ -288,6 +289,7 @@ struct PunchProblem {
 
 PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimits& limits,
                            Field* punch_pressure) {
+  const detail::StageTime time(detail::Stage::stiffness);
   const Field& p = problem.p;
   const double bound = problem.bound, contact_modulus = problem.contact_modulus;
   const Grid2D& grid = problem.grid;
