@@ -226,12 +226,40 @@ class SurfaceContacts {
     return moved[1] > 0 ? moved[0] / moved[1] : 0;
   }
 
-  StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
-
   StiffnessSample at(double indentation) {
     StiffnessSample& sample = contact(indentation);
     if (sample.force > 0 && !(sample.stiffness > 0)) stiffen(sample);
     return sample;
+  }
+
+  /// The contacts with their stiffness, by their indentation.
+  std::vector<StiffnessSample> samples() const {
+    std::vector<StiffnessSample> found;
+    for (const auto& [indentation, sample] : known_)
+      if (sample.stiffness > 0) found.push_back(sample);
+    return found;
+  }
+  /// Adds samples() of the same surface, solved for other loads.
+  void add(const std::vector<StiffnessSample>& others) {
+    for (const StiffnessSample& sample : others) known_.try_emplace(sample.indentation, sample);
+  }
+  /// The indentation of the contact with stiffness that is nearest to `wanted` within the range
+  /// from `low` to `high`; `wanted` itself if there is none.
+  double known_near(double wanted, double low, double high) const {
+    double nearest = wanted, distance = std::numeric_limits<double>::infinity();
+    for (auto one = known_.lower_bound(low); one != known_.end() && one->first <= high; ++one) {
+      if (!(one->second.stiffness > 0) || std::abs(one->first - wanted) >= distance) continue;
+      nearest = one->first;
+      distance = std::abs(nearest - wanted);
+    }
+    return nearest;
+  }
+  void report_to(const Progress& progress) { options_.on_progress = progress; }
+  /// Frees the fields of the last contacts, which only serve as start of the next one.
+  void free_fields() {
+    last_ = before_ = std::nullopt;
+    last_gap_ = Field();
+    last_at_ = before_at_ = 0;
   }
 
   /// The force and ρ = K_t/((G*/E*)K) at an indentation, with K_t along a direction from a stick

@@ -160,11 +160,13 @@ class Load {
     return contact;
   }
 
-  /// Finds the loss on one grid of nx points along x, with contacts by contact_options() of a load
-  /// on this grid; loads in other directions use the same contacts.
+  /// Finds the loss without slip on one grid of nx points along x, with contacts by
+  /// contact_options() of a load on this grid; loads in other directions use the same contacts.
   void solve(SurfaceContacts& contacts_at, Index nx) {
     const bool first = values_.empty();
     const double center = contacts_at.indentation_at(sample_.pressure);
+    // While the contact is the last one, its stiffness needs no second solve.
+    contacts_at.at(center);
     if (first) {
       widen(contacts_at, center);
       // K_t/K is computed on the first grid only: both stiffnesses see the same cells, so it hardly
@@ -180,11 +182,31 @@ class Load {
     }
     values_.push_back(integrate(contacts_at, center));
     values_.back().points = nx;
+    check(contacts_at);
+  }
+
+  /// Adds the loss with slip on the grid of the last solve().
+  void add_slip(SurfaceContacts& contacts_at) {
+    if (!solved_) return;
+    add_slip(values_.back(), contacts_at, *solved_);
+    solved_.reset();
+    check(contacts_at);
+  }
+
+ private:
+  /// Contacts of the range of the oscillation on the last grid, for the loss with slip.
+  struct Solved {
+    std::vector<StiffnessSample> contacts;
+    KrigedStiffness kriged;
+    double mean, center;
+    int intervals;
+  };
+
+  void check(const SurfaceContacts& contacts_at) {
     values_.back().converged = values_.back().converged && contacts_at.usable();
     values_.back().leaving_share = contacts_at.leaving_share();
   }
 
- private:
   /// Tolerance of the contact solver. The second difference of F over the range of contacts is
   /// about F(KH/F)², with half the range H. A thousandth of this is smaller than the scatter by
   /// cells.
@@ -198,8 +220,8 @@ class Load {
     const double wanted =
         enough_cells / std::pow(4.0, options_.coarsen ? 1 : std::min(options_.refinements, 1));
     while (half_ < widest && contacts_at.usable()) {
-      const StiffnessSample high = contacts_at.without_stiffness_at(center + half_),
-                            low = contacts_at.without_stiffness_at(center - half_);
+      const StiffnessSample high = contacts_at.at(center + half_),
+                            low = contacts_at.at(center - half_);
       // Cells that enter at the same time count as one.
       const double cells = (high.cells - low.cells) / std::max(high.together, low.together);
       if (cells >= wanted) break;
@@ -227,7 +249,7 @@ class Load {
       contacts = std::move(finer);
       if (!contacts_at.usable()) return {};
       // The factors of the variances (scales_), estimated on one grid, serve as prior on the next.
-      const KrigedStiffness kriged(contacts, indices(center));
+      KrigedStiffness kriged(contacts, indices(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
       GridValue value = evaluate(kriged, center, scales);
@@ -242,23 +264,22 @@ class Load {
       scales_ = scales;
       const double mean = mean_position(kriged, center);
       if (slip_ && std::isfinite(mean))
-        add_slip(value, contacts_at, contacts, kriged, mean, center, n);
+        solved_.emplace(std::move(contacts), std::move(kriged), mean, center, n);
       return value;
     }
   }
 
   /// Adds W with friction, −∫K_t w' dζ (w: loss of one spring, spring_loss.hpp). The range of the
-  /// oscillation uses its own contacts. Below it, further contacts are solved in pieces of at most
-  /// 1.5 F/K: over a wider piece no parabola with a random function of one variance describes K,
+  /// oscillation uses its own contacts. Below it are pieces of at most 1.5 F/K, with contacts of
+  /// other loads where these lie, and further contacts elsewhere: over a wider piece no parabola with a random function of one variance describes K,
   /// since K and its variance fall with the load. Adjacent pieces share a contact and w is
   /// continuous, so K at their border cancels. Springs below the last piece carry the force F and
   /// add less than F times the largest |w'|. Pieces are added until this bound is 0.3 % of W, and
   /// the bound counts as an error by the number of intervals. No piece is needed if springs slip so
   /// little below the oscillation that K_t does not change over their depth.
-  void add_slip(GridValue& value, SurfaceContacts& contacts_at,
-                const std::vector<StiffnessSample>& contacts, const KrigedStiffness& kriged,
-                double mean, double center, int intervals) {
-    const bool first = values_.empty(), chooses = intervals == intervals_;
+  void add_slip(GridValue& value, SurfaceContacts& contacts_at, const Solved& solved) {
+    const auto& [contacts, kriged, mean, center, intervals] = solved;
+    const bool first = values_.size() == 1, chooses = intervals == intervals_;
     const double least = mean - amplitude_;
     KrigedWork sum{0, 0, 0, 0, 0};
     double by_half = 0, rest = 0;
@@ -319,21 +340,15 @@ class Load {
       } else if (piece == pieces_.size()) {
         break;
       }
-      const double end = std::max(0.0, mean - pieces_[piece]);
-      const double half = (top - end) / 2, middle = (top + end) / 2;
-      if (!(half > 1e-9 * amplitude_)) break;
+      const double lowest_end = std::max(0.0, mean - pieces_[piece]);
+      if (!(top - lowest_end > 2e-9 * amplitude_)) break;
+      const Eigen::VectorXd nodes =
+          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom, intervals);
+      const double end = nodes(intervals);
       std::vector<StiffnessSample> inside;
-      for (int k = 0; k <= intervals; ++k)
-        inside.push_back(contacts_at.at(k == 0 ? top
-                                        : k == intervals
-                                            ? end
-                                            : middle + half * std::cos(pi * k / intervals)));
+      for (const double node : nodes) inside.push_back(contacts_at.at(node));
       if (!contacts_at.usable()) break;
-      const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
-        return k == 0             ? top
-               : k == piece_parts ? end
-                                  : middle + half * std::cos(pi * double(k) / piece_parts);
-      });
+      const Eigen::VectorXd at = positions_between(nodes);
       if (first && piece == 0)
         joined_ = center + half_ - end < widest_piece * sample_.force / sample_.normal_stiffness;
       if (joined_ && piece == 0) {
@@ -354,6 +369,39 @@ class Load {
     }
     if (chooses) interval_error_with_slip_ = std::hypot(sum.work - by_half, rest);
     value.with_slip = sum;
+  }
+
+  /// Indentations of the contacts of a piece from `top` down to `end`, at equal angles; contacts of
+  /// other loads take their place where they are nearer than a third of the way to the next one.
+  /// deepest: whether the piece must reach `end`.
+  static Eigen::VectorXd nodes_of_piece(const SurfaceContacts& contacts_at, double top, double end,
+                                        bool deepest, int intervals) {
+    const double half = (top - end) / 2, middle = (top + end) / 2;
+    const auto node = [&](Index k) {
+      return k == 0           ? top
+             : k == intervals ? end
+                              : middle + half * std::cos(pi * double(k) / intervals);
+    };
+    return Eigen::VectorXd::NullaryExpr(intervals + 1, [&](Index k) {
+      if (k == 0 || !(node(k) > 0)) return node(k);
+      const double above = node(k - 1) - node(k), below = k < intervals ? node(k) - node(k + 1) : above;
+      const double reach = std::min(above, below) / 3;
+      return contacts_at.known_near(node(k), node(k) - reach,
+                                    node(k) + (deepest && k == intervals ? 0 : reach));
+    });
+  }
+
+  /// Indentations of a piece at which K is predicted: at equal angles, and stretched between the
+  /// contacts at `nodes`.
+  static Eigen::VectorXd positions_between(const Eigen::VectorXd& nodes) {
+    const Index intervals = nodes.size() - 1, parts = piece_parts / intervals;
+    return Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
+      const Index above = k / parts;
+      if (k % parts == 0) return nodes(above);
+      const auto cosine = [](Index part) { return std::cos(pi * double(part) / piece_parts); };
+      const double from = cosine(above * parts), to = cosine((above + 1) * parts);
+      return std::lerp(nodes(above), nodes(above + 1), (from - cosine(k)) / (from - to));
+    });
   }
 
   /// Weights in −∫K w' dζ = Σ weights × K(positions), for K linear between the positions. w has
@@ -518,6 +566,7 @@ class Load {
   bool joined_ = false;
   VarianceScales scales_;
   std::vector<GridValue> values_;
+  std::optional<Solved> solved_ = {};
 };
 
 ErrorBudget budget_of(const KrigedWork& own, double by_intervals) {
@@ -700,36 +749,55 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
                  wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
                  communicator);
   std::atomic<double> residual = 0;  // residual of the contact that last reported its progress
-  detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
-                           const int done = loop.finished();
-                           return !options.on_progress ||
-                                  options.on_progress({"damping",
-                                                       double(done) / double(open.size()), done,
-                                                       residual});
-                         }});
-  const Progress progress = [&](const ProgressReport& report) {
-    residual = report.residual;
-    return loop.going_on();
+  std::vector<std::optional<SurfaceContacts>> contacts(open.size());
+  // First every load without slip, and then slip, which uses the contacts of all loads.
+  const int all_tasks = static_cast<int>(open.size() + narrow);
+  int begun = 0;
+  const auto for_loads = [&](std::size_t count, const auto& body) {
+    detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
+                             const int done = begun + loop.finished();
+                             return !options.on_progress ||
+                                    options.on_progress({"damping", double(done) / all_tasks, done,
+                                                         residual});
+                           }});
+    const Progress progress = [&](const ProgressReport& report) {
+      residual = report.residual;
+      return loop.going_on();
+    };
+    // The highest loads take longest, so they are solved first.
+    loop.run(static_cast<Index>(count), [&](Index turn) {
+      body(count - 1 - static_cast<std::size_t>(turn), progress);
+    });
+    if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+    begun += static_cast<int>(count);
   };
-  const auto contacts = [&](const NormalContactOptions& contact) {
-    return SurfaceContacts(fine, body, contact, along_x_only);
-  };
-  // The highest loads take longest, so they are solved first.
-  loop.run(static_cast<Index>(open.size()), [&](Index turn) {
-    const std::size_t at = open.size() - 1 - static_cast<std::size_t>(turn);
+  for_loads(open.size(), [&](std::size_t at, const Progress& progress) {
+    const NormalContactOptions contact = at < narrow
+                                             ? open[at].front()->contact_options(progress)
+                                             : wide.front().oscillation->contact_options(progress);
+    SurfaceContacts& contacts_at = contacts[at].emplace(fine, body, contact, along_x_only);
     if (at < narrow) {
-      SurfaceContacts contacts_at = contacts(open[at].front()->contact_options(progress));
       for (Load* load : open[at]) load->solve(contacts_at, fine.grid.nx);
-      return;
+    } else {
+      for (WideLoads& one : wide) {
+        const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
+        for (std::size_t k = 0; k < one.loads.size(); ++k)
+          one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx,
+                             contacts_at.leaving_share());
+      }
     }
-    SurfaceContacts contacts_at = contacts(wide.front().oscillation->contact_options(progress));
-    for (WideLoads& one : wide) {
-      const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
-      for (std::size_t k = 0; k < one.loads.size(); ++k)
-        one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx, contacts_at.leaving_share());
-    }
+    contacts_at.free_fields();
   });
-  if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+  std::vector<StiffnessSample> samples;
+  for (const auto& contacts_at : contacts)
+    if (contacts_at->usable()) std::ranges::copy(contacts_at->samples(), std::back_inserter(samples));
+  for_loads(narrow, [&](std::size_t at, const Progress& progress) {
+    SurfaceContacts& contacts_at = *contacts[at];
+    contacts_at.add(samples);
+    contacts_at.report_to(progress);
+    for (Load* load : open[at]) load->add_slip(contacts_at);
+    contacts_at.free_fields();
+  });
 }
 
 /// ρ at the loads of a curve whose K_t comes from stick solves; empty for a curve with K_t =
