@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -183,9 +184,12 @@ class Load {
     values_.push_back(integrate(contacts_at, center));
     values_.back().points = nx;
     check(contacts_at);
+    if (solved_ && solved_->mean - amplitude_ - slip_->depth() >= center - 2 * half_)
+      add_slip(contacts_at);
   }
 
-  /// Adds the loss with slip on the grid of the last solve().
+  /// Adds the loss with slip on the grid of the last solve(), where slip reaches so deep that
+  /// contacts of other loads serve it.
   void add_slip(SurfaceContacts& contacts_at) {
     if (!solved_) return;
     add_slip(values_.back(), contacts_at, *solved_);
@@ -283,10 +287,17 @@ class Load {
     const double least = mean - amplitude_;
     KrigedWork sum{0, 0, 0, 0, 0};
     double by_half = 0, rest = 0;
+    // The same springs are asked for with and without the first piece below the oscillation.
+    std::map<double, double> losses;
+    const auto loss_at = [&](double indentation) {
+      const auto [found, is_new] = losses.try_emplace(indentation);
+      if (is_new) found->second = (*slip_)(indentation - mean);
+      return found->second;
+    };
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
       Eigen::VectorXd of_spring =
-          weights_of_springs(at, least, [&](double index) { return (*slip_)(index - mean); });
+          weights_of_springs(at, least, loss_at);
       // K_t is constant below the oscillation, so w may be set to 0 at the lower end of its range.
       if (shallow_) of_spring(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_spring, at, between, ratio_);
@@ -305,7 +316,7 @@ class Load {
                                 const Eigen::VectorXd& at, const KrigedStiffness& between) {
       add(samples, at, between, scales_);
       const Eigen::VectorXd opening = weights_of_springs(
-          at, least, [&](double index) { return (*slip_)(std::max(index, least) - mean); });
+          at, least, [&](double index) { return loss_at(std::max(index, least)); });
       value.relaxation_work = between
                                   .estimate(tangential(opening - lowest * between.weights_at(least),
                                                        at, between, ratio_),
@@ -342,16 +353,20 @@ class Load {
       }
       const double lowest_end = std::max(0.0, mean - pieces_[piece]);
       if (!(top - lowest_end > 2e-9 * amplitude_)) break;
+      if (first && piece == 0)
+        joined_ =
+            center + half_ - lowest_end < widest_piece * sample_.force / sample_.normal_stiffness;
+      const bool joined = joined_ && piece == 0;
+      // A narrow piece has as many contacts per length as the range of the oscillation.
+      const bool narrow = joined && top - lowest_end <= (1 + 1e-9) * half_;
       const Eigen::VectorXd nodes =
-          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom, intervals);
-      const double end = nodes(intervals);
+          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom,
+                         narrow ? intervals / 2 : intervals);
       std::vector<StiffnessSample> inside;
       for (const double node : nodes) inside.push_back(contacts_at.at(node));
       if (!contacts_at.usable()) break;
       const Eigen::VectorXd at = positions_between(nodes);
-      if (first && piece == 0)
-        joined_ = center + half_ - end < widest_piece * sample_.force / sample_.normal_stiffness;
-      if (joined_ && piece == 0) {
+      if (joined) {
         std::vector<StiffnessSample> samples = contacts;
         samples.insert(samples.end(), inside.begin() + 1, inside.end());
         Eigen::VectorXd all(window.size() + piece_parts);
@@ -365,7 +380,7 @@ class Load {
         scales.add(between.log_likelihood());
         add(inside, at, between, scales);
       }
-      top = end;
+      top = nodes(nodes.size() - 1);
     }
     if (chooses) interval_error_with_slip_ = std::hypot(sum.work - by_half, rest);
     value.with_slip = sum;
@@ -409,20 +424,21 @@ class Load {
   /// much smaller than that of two positions.
   Eigen::VectorXd weights_of_springs(const Eigen::VectorXd& indices, double least,
                                      const auto& loss) const {
-    const auto integral = [&](double from, double to) {
-      return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
-    };
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(indices.size());
+    double loss_above = loss(indices(0));
     for (Index i = 0; i + 1 < indices.size(); ++i) {
-      double sum = 0, from = indices(i);
+      double sum = 0, from = indices(i), loss_from = loss_above;
       for (const double bend : {least, least - slip_->depth(), indices(i + 1)}) {
         if (bend >= from || bend < indices(i + 1)) continue;
-        sum += integral(from, bend);
+        const double loss_to = loss(bend);
+        sum += (bend - from) * (loss_from + 4 * loss((from + bend) / 2) + loss_to) / 6;
         from = bend;
+        loss_from = loss_to;
       }
       const double mean = sum / (indices(i + 1) - indices(i));
-      weights(i) += mean - loss(indices(i));
-      weights(i + 1) += loss(indices(i + 1)) - mean;
+      weights(i) += mean - loss_above;
+      weights(i + 1) += loss_from - mean;
+      loss_above = loss_from;
     }
     return weights;
   }
