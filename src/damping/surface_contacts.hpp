@@ -206,7 +206,7 @@ class SurfaceContacts {
       return found->second;
     NormalContactState state = salebra::press(surface_, body_, at_pressure(pressure), options_);
     take(state);
-    return indentations_[pressure] = last_at_;
+    return indentations_[pressure] = last_.at;
   }
 
   /// Number of cells that leave while the bodies approach over number of those that enter, between
@@ -257,9 +257,8 @@ class SurfaceContacts {
   void report_to(const Progress& progress) { options_.on_progress = progress; }
   /// Frees the fields of the last contacts, which only serve as start of the next one.
   void free_fields() {
-    last_ = before_ = std::nullopt;
+    last_ = before_ = {};
     last_gap_ = Field();
-    last_at_ = before_at_ = 0;
   }
 
   /// The force and ρ = K_t/((G*/E*)K) at an indentation, with K_t along a direction from a stick
@@ -312,16 +311,19 @@ class SurfaceContacts {
   /// Adds K to a sample. K needs the pressures of the contact, which is solved again if it was not
   /// the last one. Returns a state with these pressures.
   NormalContactState stiffen(StiffnessSample& sample, Field* punch_pressure = nullptr) {
-    if (sample.indentation != last_at_) press(sample.indentation);
+    if (sample.indentation != last_.at) press(sample.indentation);
     NormalContactState state;
-    state.contact_pressure = *last_;
+    state.contact_pressure = *last_.pressure;
     state.communicator = surface_.communicator;
     state.datum = body_.datum();
     Field own;
     if (!punch_pressure) punch_pressure = &own;
     sample.stiffness = normal_stiffness(state, surface_.grid, body_, options_, punch_pressure);
     converged_ = converged_ && std::isfinite(sample.stiffness);
-    if (converged_) correct_force(sample, *punch_pressure);
+    if (converged_) {
+      correct_force(sample, *punch_pressure);
+      last_.growth = *punch_pressure;
+    }
     return state;
   }
 
@@ -336,7 +338,7 @@ class SurfaceContacts {
         [&](Index begin, Index end) {
           double part = 0;
           for (Index k = begin * surface_.grid.ny; k < end * surface_.grid.ny; ++k)
-            if (last_->data()[k] > 0) part += punch_pressure.data()[k] * last_gap_.data()[k];
+            if (last_.pressure->data()[k] > 0) part += punch_pressure.data()[k] * last_gap_.data()[k];
           return part;
         },
         last_gap_.size());
@@ -357,13 +359,13 @@ class SurfaceContacts {
     take(state);
   }
 
-  /// Initial guess of the pressures, extrapolated linearly in the indentation from the last two
-  /// contacts.
+  /// Initial guess of the pressures, extrapolated linearly in the indentation from the nearer one
+  /// of the last two contacts.
   std::optional<Field> extrapolated(double indentation) const {
-    if (!before_) return last_;
-    const double share = (indentation - last_at_) / (last_at_ - before_at_);
-    if (std::abs(share) > 3) return last_;
-    return Field((*last_ + share * (*last_ - *before_)).max(0.0));
+    const auto distance = [&](const Pressed& one) { return std::abs(indentation - one.at); };
+    const Pressed& base = before_.pressure && distance(before_) < distance(last_) ? before_ : last_;
+    if (!base.pressure || !base.growth) return base.pressure;
+    return Field((*base.pressure + (indentation - base.at) * *base.growth).max(0.0));
   }
 
   /// Stores the results of a solve, and moves its pressures into the start of the next solve.
@@ -390,12 +392,9 @@ class SurfaceContacts {
       for (Index k = 0; k < pressures.size(); ++k)
         set[static_cast<std::size_t>(k)] = pressures.data()[k] > 0;
     }
-    before_ = std::move(last_);
-    before_at_ = last_at_;
-    last_ = std::move(state.contact_pressure);
+    before_ = std::exchange(last_, {state.indentation, std::move(state.contact_pressure), {}});
     last_gap_ = std::move(state.gap);
     last_force_ = state.force;
-    last_at_ = state.indentation;
   }
 
   const Surface& surface_;
@@ -408,10 +407,15 @@ class SurfaceContacts {
   std::map<double, StickStiffness> sticks_;
   std::map<double, double> indentations_;
   std::map<double, std::vector<bool>> sets_;  // by indentation; only if they may not be nested
-  // Pressures of the last two contacts; all processes agree on whether they exist.
-  std::optional<Field> last_, before_;
-  Field last_gap_;  // gaps of the last contact, valid until the next solve
-  double last_at_ = 0, before_at_ = 0, last_force_ = 0;
+  /// Pressures of a contact and their growth with the indentation, if known; all processes agree on
+  /// whether they exist.
+  struct Pressed {
+    double at = 0;
+    std::optional<Field> pressure = {}, growth = {};
+  };
+  Pressed last_, before_;  // the last two contacts
+  Field last_gap_;         // gaps of the last contact, valid until the next solve
+  double last_force_ = 0;
   bool converged_ = true;
 };
 

@@ -348,7 +348,9 @@ double stiffness_of(const NormalContactState& state, const Grid2D& grid, double 
   const PunchStiffness punch = press_punch(
       {state.contact_pressure, options.hardness, grid, state.communicator, contact_modulus,
        response, options.boundary, options.precision},
-      {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
+      {.relative_gain = std::clamp(1e-2 * options.tolerance, 1e-11, 1e-8),
+       .max_iterations = options.max_iterations,
+       .keep_going = keep_going(options.on_progress)},
       punch_pressure);
   return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
 }
