@@ -10,9 +10,14 @@ namespace salebra::detail {
 /// What the processor time of a computation is spent on.
 enum class Stage { other, surfaces, statistics, contacts, stiffness, stick, oscillation, results };
 
-inline constexpr std::array<std::string_view, 8> stage_names{
-    "other",          "surfaces",          "statistics", "contacts", "normal stiffness",
-    "tangential stiffness", "oscillation and damping", "means, files and page"};
+inline constexpr std::array<std::string_view, 8> stage_names{"other",
+                                                             "surfaces",
+                                                             "statistics",
+                                                             "contacts",
+                                                             "normal stiffness",
+                                                             "tangential stiffness",
+                                                             "oscillation and damping",
+                                                             "means, files and page"};
 
 /// While an object of this class exists, the processor time of its thread counts for a stage, and
 /// so does the time of threads that take part in its parallel loops. An inner stage interrupts the

@@ -109,8 +109,8 @@ double LossOfSpring::followed(double spring_depth, double half, int periods) con
   // The limit is the same at −θ as at θ.
   std::array<double, steps / 2 + 1> limits;
   for (int i = 0; i <= steps / 2; ++i)
-    limits[std::size_t(i)] =
-        std::max(0.0, stretch_ * (amplitude_ * std::cos(half * (2.0 * i / steps - 1)) - spring_depth));
+    limits[std::size_t(i)] = std::max(
+        0.0, stretch_ * (amplitude_ * std::cos(half * (2.0 * i / steps - 1)) - spring_depth));
   const auto limit_at = [&](int i) { return limits[std::size_t(std::min(i, steps - i))]; };
   double work = 0, stretch = 0;
   for (int period = 0; period < periods; ++period) {

@@ -91,6 +91,7 @@ class Load {
         motion_(motion),
         options_(options),
         sample_(curve.samples[k]),
+        index_(k),
         ratio_(ratio_on(curve, k, modulus_ratio_of(body))),
         spring_error_(detail::spring_error(body, ratio_.exponent())),
         amplitude_(detail::normal_amplitude(motion)),
@@ -124,6 +125,7 @@ class Load {
   bool follows_slip() const { return slip_.has_value(); }
   Hold hold() const { return hold_; }
   bool is_wide() const { return wide_; }
+  std::size_t index() const { return index_; }
   double direction() const { return detail::direction_of(sample_); }
   WideOscillation::Load load() const { return {sample_.pressure, sample_.force}; }
   double possible_amplitude() const { return possible_amplitude_; }
@@ -296,8 +298,7 @@ class Load {
     };
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
-      Eigen::VectorXd of_spring =
-          weights_of_springs(at, least, loss_at);
+      Eigen::VectorXd of_spring = weights_of_springs(at, least, loss_at);
       // K_t is constant below the oscillation, so w may be set to 0 at the lower end of its range.
       if (shallow_) of_spring(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_spring, at, between, ratio_);
@@ -359,9 +360,8 @@ class Load {
       const bool joined = joined_ && piece == 0;
       // A narrow piece has as many contacts per length as the range of the oscillation.
       const bool narrow = joined && top - lowest_end <= (1 + 1e-9) * half_;
-      const Eigen::VectorXd nodes =
-          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom,
-                         narrow ? intervals / 2 : intervals);
+      const Eigen::VectorXd nodes = nodes_of_piece(
+          contacts_at, top, lowest_end, lowest_end <= bottom, narrow ? intervals / 2 : intervals);
       std::vector<StiffnessSample> inside;
       for (const double node : nodes) inside.push_back(contacts_at.at(node));
       if (!contacts_at.usable()) break;
@@ -399,7 +399,8 @@ class Load {
     };
     return Eigen::VectorXd::NullaryExpr(intervals + 1, [&](Index k) {
       if (k == 0 || !(node(k) > 0)) return node(k);
-      const double above = node(k - 1) - node(k), below = k < intervals ? node(k) - node(k + 1) : above;
+      const double above = node(k - 1) - node(k),
+                   below = k < intervals ? node(k) - node(k + 1) : above;
       const double reach = std::min(above, below) / 3;
       return contacts_at.known_near(node(k), node(k) - reach,
                                     node(k) + (deepest && k == intervals ? 0 : reach));
@@ -562,6 +563,7 @@ class Load {
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   const ForceSample sample_;
+  const std::size_t index_;  // in the curve
   StiffnessRatio ratio_;
   const double spring_error_;
   const double amplitude_;
@@ -750,8 +752,8 @@ struct WideLoads {
 /// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
 /// processes. open: for each load, the loads of all directions, which share their contacts.
 void solve_on(const Surface& fine, const Body& body, const std::vector<std::vector<Load*>>& all,
-              std::vector<WideLoads>& wide, bool along_x_only,
-              const SurfaceDampingOptions& options) {
+              std::vector<WideLoads>& wide, bool along_x_only, const SurfaceDampingOptions& options,
+              const detail::KeptContacts& kept, double kept_tolerance) {
   const Communicator& communicator = fine.communicator;
   // The wide loads share their contacts and are one task, the last one.
   std::vector<std::vector<Load*>> open = all;
@@ -773,17 +775,16 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
     detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
                              const int done = begun + loop.finished();
                              return !options.on_progress ||
-                                    options.on_progress({"damping", double(done) / all_tasks, done,
-                                                         residual});
+                                    options.on_progress(
+                                        {"damping", double(done) / all_tasks, done, residual});
                            }});
     const Progress progress = [&](const ProgressReport& report) {
       residual = report.residual;
       return loop.going_on();
     };
     // The highest loads take longest, so they are solved first.
-    loop.run(static_cast<Index>(count), [&](Index turn) {
-      body(count - 1 - static_cast<std::size_t>(turn), progress);
-    });
+    loop.run(static_cast<Index>(count),
+             [&](Index turn) { body(count - 1 - static_cast<std::size_t>(turn), progress); });
     if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
     begun += static_cast<int>(count);
   };
@@ -793,6 +794,9 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
                                              : wide.front().oscillation->contact_options(progress);
     SurfaceContacts& contacts_at = contacts[at].emplace(fine, body, contact, along_x_only);
     if (at < narrow) {
+      const Load& load = *open[at].front();
+      if (load.index() < kept.size() && kept[load.index()] && kept_tolerance <= contact.tolerance)
+        contacts_at.take(load.load().pressure, *kept[load.index()]);
       for (Load* load : open[at]) load->solve(contacts_at, fine.grid.nx);
     } else {
       for (WideLoads& one : wide) {
@@ -806,7 +810,8 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
   });
   std::vector<StiffnessSample> samples;
   for (const auto& contacts_at : contacts)
-    if (contacts_at->usable()) std::ranges::copy(contacts_at->samples(), std::back_inserter(samples));
+    if (contacts_at->usable())
+      std::ranges::copy(contacts_at->samples(), std::back_inserter(samples));
   for_loads(narrow, [&](std::size_t at, const Progress& progress) {
     SurfaceContacts& contacts_at = *contacts[at];
     contacts_at.add(samples);
@@ -855,6 +860,13 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
                                                          const Oscillation& motion,
                                                          const std::vector<ForceCurve>& curves,
                                                          const SurfaceDampingOptions& options) {
+  return detail::surface_damping(surface, body, motion, curves, options, {}, 0);
+}
+
+std::vector<std::vector<SurfaceDamping>> detail::surface_damping(
+    const Surface& surface, const Body& body, const Oscillation& motion,
+    const std::vector<ForceCurve>& curves, const SurfaceDampingOptions& options,
+    const KeptContacts& contacts, double tolerance) {
   const detail::StageTime time(detail::Stage::oscillation);
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
@@ -909,7 +921,8 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    solve_on(fine, body, open, wide, along_x_only, options);
+    solve_on(fine, body, open, wide, along_x_only, options,
+             halving == 0 ? contacts : detail::KeptContacts(), tolerance);
   }
   std::vector<std::vector<SurfaceDamping>> results(curves.size());
   for (std::size_t d = 0; d < curves.size(); ++d)
@@ -924,7 +937,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   const bool free = *options.seam == SeamCheck::free;
   if (free) without.boundary = Boundary::free;
   const auto unseamed =
-      surface_damping(free ? surface : windowed(surface), body, motion, curves, without);
+      salebra::surface_damping(free ? surface : windowed(surface), body, motion, curves, without);
   for (std::size_t d = 0; d < curves.size(); ++d)
     for (std::size_t k = 0; k < results[d].size(); ++k)
       add_seam(results[d][k], unseamed[d][k], loads[d][k].values(), options);

@@ -345,13 +345,13 @@ double stiffness_of(const NormalContactState& state, const Grid2D& grid, double 
   const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
   if (full && state.communicator.all_agree(elastic.all())) return *full;
   if (state.communicator.all_agree(!elastic.any())) return 0;
-  const PunchStiffness punch = press_punch(
-      {state.contact_pressure, options.hardness, grid, state.communicator, contact_modulus,
-       response, options.boundary, options.precision},
-      {.relative_gain = std::clamp(1e-2 * options.tolerance, 1e-11, 1e-8),
-       .max_iterations = options.max_iterations,
-       .keep_going = keep_going(options.on_progress)},
-      punch_pressure);
+  const PunchStiffness punch =
+      press_punch({state.contact_pressure, options.hardness, grid, state.communicator,
+                   contact_modulus, response, options.boundary, options.precision},
+                  {.relative_gain = std::clamp(1e-2 * options.tolerance, 1e-11, 1e-8),
+                   .max_iterations = options.max_iterations,
+                   .keep_going = keep_going(options.on_progress)},
+                  punch_pressure);
   return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
 }
 
