@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <span>
 
 #include "base/random.hpp"
 
@@ -51,6 +54,32 @@ double quantile(std::vector<double>& values, double probability) {
                           ? *std::min_element(values.begin() + below + 1, values.end())
                           : low;
   return low + (position - double(below)) * (high - low);
+}
+
+/// Positions of all resamples of `count` values. All quantities of an ensemble use the same draws, so
+/// the last table is kept: 8 kB per value.
+std::shared_ptr<const std::vector<std::int32_t>> draws_of(std::uint64_t seed, int resamples,
+                                                          std::int32_t count) {
+  struct Table {
+    std::uint64_t seed;
+    int resamples;
+    std::int32_t count;
+    std::shared_ptr<const std::vector<std::int32_t>> positions;
+  };
+  static std::mutex mutex;
+  static Table last{};
+  const std::lock_guard lock(mutex);
+  if (!last.positions || last.seed != seed || last.resamples != resamples || last.count != count) {
+    std::vector<std::int32_t> positions(std::size_t(resamples) * std::size_t(count));
+    for (int number = 0; number < resamples; ++number)
+      fill_draws(seed, number, 0, count,
+                 std::span(positions).subspan(std::size_t(number) * std::size_t(count),
+                                              std::size_t(count)),
+                 bootstrap_stream);
+    last = {seed, resamples, count,
+            std::make_shared<const std::vector<std::int32_t>>(std::move(positions))};
+  }
+  return last.positions;
 }
 
 }  // namespace
@@ -122,14 +151,12 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values, Sign sign) const
   if (sample.deviation <= 1e-14 * std::abs(sample.mean)) return estimate;
   std::vector<double> statistics(static_cast<std::size_t>(resamples_));
   const auto count = std::int32_t(kept.size());
-  // Draws random numbers when they are needed; a table of them would take 8 kB per value.
+  const auto draws = draws_of(seed_, resamples_, count);
   const auto resample_slab = [&](Index begin, Index end) {
-    std::vector<std::int32_t> positions(kept.size());
     std::vector<double> resample(kept.size());
     for (Index number = begin; number < end; ++number) {
-      fill_draws(seed_, std::int32_t(number), 0, count, positions, bootstrap_stream);
-      std::ranges::transform(positions, resample.begin(),
-                             [&](std::int32_t position) { return kept[std::size_t(position)]; });
+      const std::int32_t* positions = draws->data() + number * count;
+      for (std::size_t k = 0; k < kept.size(); ++k) resample[k] = kept[std::size_t(positions[k])];
       const Moments drawn = moments_of(resample);
       const double shift = drawn.mean - sample.mean;
       // A resample that repeats a single value has no scatter; the limit of the divisor puts it
