@@ -186,7 +186,10 @@ class Load {
     values_.push_back(integrate(contacts_at, center));
     values_.back().points = nx;
     check(contacts_at);
-    if (solved_ && solved_->mean - amplitude_ - slip_->depth() >= center - 2 * half_)
+    // Only where slip reaches deep, contacts of other loads lie there.
+    constexpr double deep = 0.25;
+    if (solved_ && center - half_ - (solved_->mean - amplitude_ - slip_->depth()) <=
+                       std::max(half_, deep * sample_.force / sample_.normal_stiffness))
       add_slip(contacts_at);
   }
 
@@ -358,8 +361,8 @@ class Load {
         joined_ =
             center + half_ - lowest_end < widest_piece * sample_.force / sample_.normal_stiffness;
       const bool joined = joined_ && piece == 0;
-      // A narrow piece has as many contacts per length as the range of the oscillation.
-      const bool narrow = joined && top - lowest_end <= (1 + 1e-9) * half_;
+      // A narrow piece has about as many contacts per length as the range of the oscillation.
+      const bool narrow = joined && top - lowest_end <= 1.5 * half_;
       const Eigen::VectorXd nodes = nodes_of_piece(
           contacts_at, top, lowest_end, lowest_end <= bottom, narrow ? intervals / 2 : intervals);
       std::vector<StiffnessSample> inside;

@@ -348,7 +348,7 @@ double stiffness_of(const NormalContactState& state, const Grid2D& grid, double 
   const PunchStiffness punch =
       press_punch({state.contact_pressure, options.hardness, grid, state.communicator,
                    contact_modulus, response, options.boundary, options.precision},
-                  {.relative_gain = std::clamp(1e-2 * options.tolerance, 1e-11, 1e-8),
+                  {.relative_gain = std::clamp(0.1 * options.tolerance, 1e-11, 1e-7),
                    .max_iterations = options.max_iterations,
                    .keep_going = keep_going(options.on_progress)},
                   punch_pressure);
