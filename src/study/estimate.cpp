@@ -10,7 +10,8 @@
 #include <mutex>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <span>
+#include <tuple>
+#include <utility>
 
 #include "base/random.hpp"
 
@@ -56,30 +57,26 @@ double quantile(std::vector<double>& values, double probability) {
   return low + (position - double(below)) * (high - low);
 }
 
-/// Positions of all resamples of `count` values. All quantities of an ensemble use the same draws, so
-/// the last table is kept: 8 kB per value.
+/// The draws of all resamples of a few values. All quantities of an ensemble use the same draws, so
+/// the last table is kept. More values would need too much memory: empty.
 std::shared_ptr<const std::vector<std::int32_t>> draws_of(std::uint64_t seed, int resamples,
                                                           std::int32_t count) {
-  struct Table {
-    std::uint64_t seed;
-    int resamples;
-    std::int32_t count;
-    std::shared_ptr<const std::vector<std::int32_t>> positions;
-  };
+  constexpr std::int32_t most = 64;
+  if (count > most) return {};
+  using Key = std::tuple<std::uint64_t, int, std::int32_t>;
   static std::mutex mutex;
-  static Table last{};
+  static std::pair<Key, std::shared_ptr<const std::vector<std::int32_t>>> last;
+  const Key key{seed, resamples, count};
   const std::lock_guard lock(mutex);
-  if (!last.positions || last.seed != seed || last.resamples != resamples || last.count != count) {
-    std::vector<std::int32_t> positions(std::size_t(resamples) * std::size_t(count));
+  if (!last.second || last.first != key) {
+    const auto values = std::size_t(count);
+    std::vector<std::int32_t> draws(std::size_t(resamples) * values);
     for (int number = 0; number < resamples; ++number)
-      fill_draws(seed, number, 0, count,
-                 std::span(positions).subspan(std::size_t(number) * std::size_t(count),
-                                              std::size_t(count)),
+      fill_draws(seed, number, 0, count, {draws.data() + std::size_t(number) * values, values},
                  bootstrap_stream);
-    last = {seed, resamples, count,
-            std::make_shared<const std::vector<std::int32_t>>(std::move(positions))};
+    last = {key, std::make_shared<const std::vector<std::int32_t>>(std::move(draws))};
   }
-  return last.positions;
+  return last.second;
 }
 
 }  // namespace
@@ -153,9 +150,11 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values, Sign sign) const
   const auto count = std::int32_t(kept.size());
   const auto draws = draws_of(seed_, resamples_, count);
   const auto resample_slab = [&](Index begin, Index end) {
+    std::vector<std::int32_t> drawn_now(draws ? 0 : kept.size());
     std::vector<double> resample(kept.size());
     for (Index number = begin; number < end; ++number) {
-      const std::int32_t* positions = draws->data() + number * count;
+      if (!draws) fill_draws(seed_, std::int32_t(number), 0, count, drawn_now, bootstrap_stream);
+      const std::int32_t* positions = draws ? draws->data() + number * count : drawn_now.data();
       for (std::size_t k = 0; k < kept.size(); ++k) resample[k] = kept[std::size_t(positions[k])];
       const Moments drawn = moments_of(resample);
       const double shift = drawn.mean - sample.mean;

@@ -27,9 +27,6 @@ constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
 // In float, the residual is computed anew when the estimate of the complementarity error e_c has
 // fallen by this factor.
 constexpr double refresh_after = 1e-4;
-// It is not while the estimate is within this factor of the tolerance: the check of the result
-// follows soon.
-constexpr double final_decade = 10;
 // On the multilevel kernel, whose own error is a few per cent, the residual is computed anew when
 // the estimate of e_c has fallen by this factor.
 constexpr double multilevel_refresh_after = 0.03;
@@ -385,8 +382,7 @@ void ActiveSetCg<Real>::go_on(Run& run) {
     const bool fresh_needed =
         run.estimate < 0.7 * limits.tolerance || run.interrupted() ||
         run.outcome.iterations >= limits.max_iterations ||
-        (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh &&
-         run.estimate > final_decade * limits.tolerance);
+        (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh);
     const bool falls_back = stalled || !progressed;
     if (fresh_needed || falls_back) refresh(run, falls_back);
     if (run.finished) break;
