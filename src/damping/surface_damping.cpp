@@ -361,10 +361,8 @@ class Load {
         joined_ =
             center + half_ - lowest_end < widest_piece * sample_.force / sample_.normal_stiffness;
       const bool joined = joined_ && piece == 0;
-      // A narrow piece has as many contacts per length as the range of the oscillation.
-      const bool narrow = joined && top - lowest_end <= (1 + 1e-9) * half_;
-      const Eigen::VectorXd nodes = nodes_of_piece(
-          contacts_at, top, lowest_end, lowest_end <= bottom, narrow ? intervals / 2 : intervals);
+      const Eigen::VectorXd nodes =
+          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom, intervals);
       std::vector<StiffnessSample> inside;
       for (const double node : nodes) inside.push_back(contacts_at.at(node));
       if (!contacts_at.usable()) break;
