@@ -471,8 +471,10 @@ void add_study_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command, true);
-  command.add_flag("--verbose", arguments->verbose,
-                   "also print all models, how the law bends and how the mean converged");
+  command.add_flag(
+      "--verbose", arguments->verbose,
+      "also print all models, how the law bends, how the mean converged, and on stderr the "
+      "processor time by stage");
   command.add_flag("--sensitivity", arguments->sensitivity,
                    "also compute how the results respond to the parameters and to each octave of "
                    "wavelengths: d ln result/d ln parameter. Takes one to three times the study, "

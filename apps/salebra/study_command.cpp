@@ -15,6 +15,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
@@ -25,6 +26,7 @@
 #include <salebra/study/twin_file.hpp>
 #include <set>
 
+#include "base/stage_time.hpp"
 #include "dry_run.hpp"
 #include "results/answer_json.hpp"
 #include "results/columns.hpp"
@@ -671,9 +673,25 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
 
 }  // namespace
 
+namespace {
+
+std::string text_of_stages() {
+  const auto seconds = detail::stage_seconds();
+  const double all = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  std::string text = fmt::format("processor time, {:.2f} s:", all);
+  for (std::size_t k = 0; k < seconds.size(); ++k)
+    if (seconds[k] > 0)
+      text += fmt::format("\n  {:<23} {:7.2f} s  {:3.0f} %", detail::stage_names[k], seconds[k],
+                          100 * seconds[k] / all);
+  return text;
+}
+
+}  // namespace
+
 void run_study(const std::string& command, const StudyConfiguration& configuration,
                const StudyArguments& arguments, Session& session,
                const std::function<PointAnswer(const StudyResult&)>& answer_point) {
+  const detail::StageTime time(detail::Stage::results);
   if (const auto* measured = std::get_if<MeasuredSurface>(&configuration.surfaces))
     session.reads("surface.file", measured->file);
   if (run_without_results(configuration, arguments, session)) return;
@@ -709,6 +727,7 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   session.answer(session.with_processes(std::move(answer)), text);
   report.require_written();
+  if (arguments.verbose) session.inform(text_of_stages());
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted(command + ": interrupted; the output covers the finished surfaces");
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "region_report.hpp"
+#include "stage_time.hpp"
 #include "stop_check.hpp"
 #include "task_pool.hpp"
 
@@ -75,10 +76,12 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
   const detail::RegionReport report = detail::region_report;
   std::vector<double> seconds(report ? static_cast<std::size_t>(slabs) : 0);
   const double begun = report ? detail::thread_seconds() : 0;
+  const detail::Stage stage = detail::StageTime::current();
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (Index slab = 0; slab < slabs; ++slab) {
     const double before = report ? detail::thread_seconds() : 0;
     try {
+      const detail::StageTime time(stage);
       const detail::StopCheck::Shared shared(check);
       detail::stop_if_asked();
       body(rows * slab / slabs, rows * (slab + 1) / slabs);

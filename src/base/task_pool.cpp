@@ -185,6 +185,7 @@ void TaskLoop::run(Index count, const std::function<void(Index)>& body) {
   const int threads = parallel::threads();
   count_ = count;
   body_ = &body;
+  stage_ = StageTime::current();
   around_ = here.loop;
   depth_ = here.depth;
   most_ = options_.at_once > 0 ? std::min(options_.at_once, threads) : threads;
@@ -241,6 +242,7 @@ void TaskLoop::one_by_one() {
 
 void TaskLoop::perform(Index task) {
   try {
+    const StageTime time(stage_);
     (*body_)(task);
     ++finished_;
   } catch (...) {

@@ -10,6 +10,8 @@
 #include <salebra/base/grid.hpp>
 #include <utility>
 
+#include "stage_time.hpp"
+
 namespace salebra::detail {
 
 class TaskPool;
@@ -71,6 +73,7 @@ class TaskLoop {
   std::atomic<int> finished_ = 0;
   const std::function<void(Index)>* body_ = nullptr;
   Index count_ = 0;
+  Stage stage_ = Stage::other;  // of the thread that called the loop
   TaskLoop* around_ = nullptr;  // the loop whose task began this loop
   std::chrono::steady_clock::time_point told_ = {};
 

@@ -58,7 +58,8 @@ std::optional<double> stiffness_ratio(const Body&) { return {}; }
 template <class Pressed>
 std::vector<ForceSample> samples_of(const NormalContactState& state, const Surface& surface,
                                     const Pressed& pressed, const SweepOptions& options,
-                                    const std::vector<double>& directions) {
+                                    const std::vector<double>& directions,
+                                    Field* growth = nullptr) {
   ForceSample sample;
   sample.indentation = state.indentation;
   if (options.contact.boundary == Boundary::periodic) sample.mean_gap = state.mean_gap;
@@ -69,10 +70,10 @@ std::vector<ForceSample> samples_of(const NormalContactState& state, const Surfa
   const bool sticks = options.stiffness && options.stick;
   StickStiffness stick;
   stick.xx = stick.xy = stick.yy = ForceSample::unknown;
+  Field punch_pressure;
   if (options.stiffness && state.converged()) {
-    Field punch_pressure;
     sample.normal_stiffness = stiffness_on(state, surface.grid, pressed, options.contact,
-                                           options.stick ? &punch_pressure : nullptr);
+                                           options.stick || growth ? &punch_pressure : nullptr);
     sample.converged = !std::isnan(sample.normal_stiffness);
     if (options.stick && std::isfinite(sample.normal_stiffness)) {
       StickOptions solve;
@@ -89,6 +90,7 @@ std::vector<ForceSample> samples_of(const NormalContactState& state, const Surfa
       sample.tangential_stiffness = *ratio * sample.normal_stiffness;
     }
   }
+  if (growth) *growth = std::move(punch_pressure);
   std::vector<ForceSample> samples(directions.size(), sample);
   for (std::size_t k = 0; sticks && k < samples.size(); ++k) {
     samples[k].direction = directions[k];
@@ -230,12 +232,18 @@ std::vector<ForceCurve> sweep(const Surface& surface, const Pressed& pressed,
     const NormalContactState state =
         press_on(surface, pressed, at_pressure(pressures[k]), inner.contact);
     if (state.termination == Termination::interrupted) return loop.stop();
-    const std::vector<ForceSample> found = samples_of(state, surface, pressed, inner, directions);
+    Field growth;
+    const std::vector<ForceSample> found = samples_of(state, surface, pressed, inner, directions,
+                                                      options.on_stiffness ? &growth : nullptr);
     // A sample whose stiffness solve was interrupted is dropped; it is not a failed load.
     if (!surface.communicator.all_agree(!loop.stopped() || found.front().converged))
       return loop.stop();
     samples[k] = found;
     if (options.on_state && state.converged()) options.on_state(k, state);
+    const double stiffness = found.front().normal_stiffness;
+    if (options.on_stiffness && found.front().converged && std::isfinite(stiffness) &&
+        stiffness > 0)
+      options.on_stiffness(k, state, stiffness, growth);
   });
   if (groups.count() > 1) gather(groups, samples);
 

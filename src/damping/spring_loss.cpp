@@ -106,17 +106,20 @@ double LossOfSpring::operator()(double spring_depth) const {
 // `periods` periods; exact for straight steps. This equals the loss, since the stored energy is the
 // same at the beginning and the end.
 double LossOfSpring::followed(double spring_depth, double half, int periods) const {
-  const auto limit_at = [&](double angle) {
-    return std::max(0.0, stretch_ * (amplitude_ * std::cos(angle) - spring_depth));
-  };
+  // The limit is the same at −θ as at θ.
+  std::array<double, steps / 2 + 1> limits;
+  for (int i = 0; i <= steps / 2; ++i)
+    limits[std::size_t(i)] = std::max(
+        0.0, stretch_ * (amplitude_ * std::cos(half * (2.0 * i / steps - 1)) - spring_depth));
+  const auto limit_at = [&](int i) { return limits[std::size_t(std::min(i, steps - i))]; };
   double work = 0, stretch = 0;
   for (int period = 0; period < periods; ++period) {
     detail::stop_if_asked();
     work = 0;
-    double x = displacement(-half), limit = limit_at(-half);
+    double x = displacement(-half), limit = limit_at(0);
     for (int i = 1; i <= steps; ++i) {
       const double angle = half * (2.0 * i / steps - 1);
-      const double next_x = displacement(angle), next_limit = limit_at(angle);
+      const double next_x = displacement(angle), next_limit = limit_at(i);
       const double distance = next_x - x, stuck = stretch + distance;
       if (std::abs(stuck) <= next_limit) {
         work += (stretch + stuck) / 2 * distance;

@@ -17,6 +17,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/surface/moments.hpp>
 #include <span>
 #include <utility>
@@ -179,6 +180,55 @@ inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double
   return {sides[0], point_of(curve.samples[load], modulus_ratio), sides[1]};
 }
 
+/// Force of a contact that the solver's tolerance added, N, by the gaps that it left in cells in
+/// contact. With the exact pressures p* and the compliance matrix G, these gaps are u = G(p − p*).
+/// The pressures q of a unit indentation of the contact satisfy Gq = 1, hence Σ(p − p*) = Σqu. The
+/// remaining error is round-off, so forces of contacts at any distance may be subtracted.
+inline double excess_force(const Field& pressure, const Field& gap, const Field& growth,
+                           const Surface& surface) {
+  const Grid2D& grid = surface.grid;
+  return grid.cell_area() * parallel::sum_blocks(
+                                surface.partition(),
+                                [&](Index begin, Index end) {
+                                  double part = 0;
+                                  for (Index k = begin * grid.ny; k < end * grid.ny; ++k)
+                                    if (pressure.data()[k] > 0)
+                                      part += growth.data()[k] * gap.data()[k];
+                                  return part;
+                                },
+                                gap.size());
+}
+
+/// A contact of a force curve, kept for the oscillation about its load: 16 bytes per cell in
+/// contact.
+class KeptContact {
+ public:
+  KeptContact() = default;
+  /// growth: dp/dδ of each cell, Pa/m.
+  KeptContact(const NormalContactState& state, double stiffness, const Field& growth,
+              const Surface& surface)
+      : indentation_(state.indentation),
+        force_(state.force),
+        stiffness_(stiffness),
+        excess_(excess_force(state.contact_pressure, state.gap, growth, surface)) {
+    for (Index k = 0; k < growth.size(); ++k)
+      if (const double pressure = state.contact_pressure.data()[k]; pressure > 0)
+        cells_.push_back({k, static_cast<float>(pressure), static_cast<float>(growth.data()[k])});
+  }
+
+ private:
+  friend class SurfaceContacts;
+  struct Cell {
+    Index index;
+    float pressure, growth;
+  };
+  double indentation_ = 0, force_ = 0, stiffness_ = 0, excess_ = 0;
+  std::vector<Cell> cells_;  // of this process
+};
+
+/// Contacts of the loads of a force curve; empty for loads without one.
+using KeptContacts = std::vector<std::optional<KeptContact>>;
+
 /// The contacts of one surface on one grid, solved when they are needed and then kept.
 class SurfaceContacts {
  public:
@@ -206,7 +256,27 @@ class SurfaceContacts {
       return found->second;
     NormalContactState state = salebra::press(surface_, body_, at_pressure(pressure), options_);
     take(state);
-    return indentations_[pressure] = last_at_;
+    return indentations_[pressure] = last_.at;
+  }
+
+  /// Takes over a contact solved at a pressure.
+  void take(double pressure, const KeptContact& kept) {
+    NormalContactState state;
+    state.indentation = kept.indentation_;
+    state.force = kept.force_;
+    state.termination = Termination::converged;
+    state.contact_pressure = Field::Zero(surface_.heights.rows(), surface_.heights.cols());
+    Field growth = state.contact_pressure;
+    for (const KeptContact::Cell& cell : kept.cells_) {
+      state.contact_pressure.data()[cell.index] = cell.pressure;
+      growth.data()[cell.index] = cell.growth;
+    }
+    take(state);
+    last_.growth = std::move(growth);
+    indentations_[pressure] = kept.indentation_;
+    StiffnessSample& sample = known_[kept.indentation_];
+    sample.stiffness = kept.stiffness_;
+    set_correction(sample, kept.force_, kept.excess_);
   }
 
   /// Number of cells that leave while the bodies approach over number of those that enter, between
@@ -226,12 +296,39 @@ class SurfaceContacts {
     return moved[1] > 0 ? moved[0] / moved[1] : 0;
   }
 
-  StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
-
   StiffnessSample at(double indentation) {
     StiffnessSample& sample = contact(indentation);
     if (sample.force > 0 && !(sample.stiffness > 0)) stiffen(sample);
     return sample;
+  }
+
+  /// The contacts with their stiffness, by their indentation.
+  std::vector<StiffnessSample> samples() const {
+    std::vector<StiffnessSample> found;
+    for (const auto& [indentation, sample] : known_)
+      if (sample.stiffness > 0) found.push_back(sample);
+    return found;
+  }
+  /// Adds samples() of the same surface, solved for other loads.
+  void add(const std::vector<StiffnessSample>& others) {
+    for (const StiffnessSample& sample : others) known_.try_emplace(sample.indentation, sample);
+  }
+  /// The indentation of the contact with stiffness that is nearest to `wanted` within the range
+  /// from `low` to `high`; `wanted` itself if there is none.
+  double known_near(double wanted, double low, double high) const {
+    double nearest = wanted, distance = std::numeric_limits<double>::infinity();
+    for (auto one = known_.lower_bound(low); one != known_.end() && one->first <= high; ++one) {
+      if (!(one->second.stiffness > 0) || std::abs(one->first - wanted) >= distance) continue;
+      nearest = one->first;
+      distance = std::abs(nearest - wanted);
+    }
+    return nearest;
+  }
+  void report_to(const Progress& progress) { options_.on_progress = progress; }
+  /// Frees the fields of the last contacts, which only serve as start of the next one.
+  void free_fields() {
+    last_ = before_ = {};
+    last_gap_ = Field();
   }
 
   /// The force and ρ = K_t/((G*/E*)K) at an indentation, with K_t along a direction from a stick
@@ -240,16 +337,16 @@ class SurfaceContacts {
     StiffnessSample& sample = contact(indentation);
     if (!(sample.force > 0)) return {};
     if (!sticks_.contains(indentation)) {
-      Field punch_pressure;
-      const NormalContactState state = stiffen(sample, &punch_pressure);
+      if (last_.at != indentation || !last_.growth) stiffen(sample);
       if (!converged_) return {};
       StickOptions stick;
       stick.tolerance = stick_tolerance;
       stick.boundary = options_.boundary;
       stick.on_progress = options_.on_progress;
-      const StickStiffness tangential =
-          stick_stiffness(contact_set(state), surface_.grid, body_, stick, along_x_only_,
-                          punch_pressure * modulus_ratio_of(body_), surface_.communicator);
+      const StickStiffness tangential = stick_stiffness(
+          ContactSet(*last_.pressure > 0), surface_.grid, body_, stick, along_x_only_,
+          last_.growth ? Field(*last_.growth * modulus_ratio_of(body_)) : Field(),
+          surface_.communicator);
       converged_ = converged_ && tangential.converged();
       sticks_[indentation] = tangential;
     }
@@ -282,39 +379,25 @@ class SurfaceContacts {
   }
 
   /// Adds K to a sample. K needs the pressures of the contact, which is solved again if it was not
-  /// the last one. Returns a state with these pressures.
-  NormalContactState stiffen(StiffnessSample& sample, Field* punch_pressure = nullptr) {
-    if (sample.indentation != last_at_) press(sample.indentation);
+  /// the last one.
+  void stiffen(StiffnessSample& sample) {
+    if (sample.indentation != last_.at) press(sample.indentation);
     NormalContactState state;
-    state.contact_pressure = *last_;
+    state.contact_pressure = std::move(*last_.pressure);
     state.communicator = surface_.communicator;
     state.datum = body_.datum();
-    Field own;
-    if (!punch_pressure) punch_pressure = &own;
-    sample.stiffness = normal_stiffness(state, surface_.grid, body_, options_, punch_pressure);
+    Field growth;
+    sample.stiffness = normal_stiffness(state, surface_.grid, body_, options_, &growth);
+    last_.pressure = std::move(state.contact_pressure);
     converged_ = converged_ && std::isfinite(sample.stiffness);
-    if (converged_) correct_force(sample, *punch_pressure);
-    return state;
+    if (!converged_ || !(sample.stiffness > 0)) return;
+    set_correction(sample, last_force_, excess_force(*last_.pressure, last_gap_, growth, surface_));
+    last_.growth = std::move(growth);
   }
 
-  /// Corrects the force of a contact for the gaps that the solver's tolerance left in cells in
-  /// contact. With the exact pressures p* and the compliance matrix G, these gaps are u = G(p −
-  /// p*). The pressures q of a unit indentation of the contact satisfy Gq = 1, hence Σ(p − p*) =
-  /// Σqu. The remaining error is round-off, so forces of contacts at any distance may be
-  /// subtracted.
-  void correct_force(StiffnessSample& sample, const Field& punch_pressure) {
-    const double sum = parallel::sum_blocks(
-        surface_.partition(),
-        [&](Index begin, Index end) {
-          double part = 0;
-          for (Index k = begin * surface_.grid.ny; k < end * surface_.grid.ny; ++k)
-            if (last_->data()[k] > 0) part += punch_pressure.data()[k] * last_gap_.data()[k];
-          return part;
-        },
-        last_gap_.size());
-    const double correction = sum * surface_.grid.cell_area();
-    sample.force = last_force_ - correction;
-    sample.force_correction = std::abs(correction);
+  static void set_correction(StiffnessSample& sample, double force, double excess) {
+    sample.force = force - excess;
+    sample.force_correction = std::abs(excess);
   }
 
   void press(double indentation) {
@@ -329,13 +412,13 @@ class SurfaceContacts {
     take(state);
   }
 
-  /// Initial guess of the pressures, extrapolated linearly in the indentation from the last two
-  /// contacts.
+  /// Initial guess of the pressures, extrapolated linearly in the indentation from the nearer one
+  /// of the last two contacts.
   std::optional<Field> extrapolated(double indentation) const {
-    if (!before_) return last_;
-    const double share = (indentation - last_at_) / (last_at_ - before_at_);
-    if (std::abs(share) > 3) return last_;
-    return Field((*last_ + share * (*last_ - *before_)).max(0.0));
+    const auto distance = [&](const Pressed& one) { return std::abs(indentation - one.at); };
+    const Pressed& base = before_.pressure && distance(before_) < distance(last_) ? before_ : last_;
+    if (!base.pressure || !base.growth) return base.pressure;
+    return Field((*base.pressure + (indentation - base.at) * *base.growth).max(0.0));
   }
 
   /// Stores the results of a solve, and moves its pressures into the start of the next solve.
@@ -348,7 +431,7 @@ class SurfaceContacts {
     sample.indentation = state.indentation;
     sample.force = state.force;
     sample.cells =
-        std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()));
+        std::round(spots.contact_area_fraction * static_cast<double>(surface_.grid.points()));
     sample.spots = static_cast<double>(spots.spots.size());
     // The perimeter along cell sides exceeds that of the smooth curve by the factor 4/π, averaged
     // over directions (Cauchy and Crofton).
@@ -362,12 +445,9 @@ class SurfaceContacts {
       for (Index k = 0; k < pressures.size(); ++k)
         set[static_cast<std::size_t>(k)] = pressures.data()[k] > 0;
     }
-    before_ = std::move(last_);
-    before_at_ = last_at_;
-    last_ = std::move(state.contact_pressure);
+    before_ = std::exchange(last_, {state.indentation, std::move(state.contact_pressure), {}});
     last_gap_ = std::move(state.gap);
     last_force_ = state.force;
-    last_at_ = state.indentation;
   }
 
   const Surface& surface_;
@@ -380,11 +460,25 @@ class SurfaceContacts {
   std::map<double, StickStiffness> sticks_;
   std::map<double, double> indentations_;
   std::map<double, std::vector<bool>> sets_;  // by indentation; only if they may not be nested
-  // Pressures of the last two contacts; all processes agree on whether they exist.
-  std::optional<Field> last_, before_;
-  Field last_gap_;  // gaps of the last contact, valid until the next solve
-  double last_at_ = 0, before_at_ = 0, last_force_ = 0;
+  /// Pressures of a contact and their growth with the indentation, if known; all processes agree on
+  /// whether they exist.
+  struct Pressed {
+    double at = 0;
+    std::optional<Field> pressure = {}, growth = {};
+  };
+  Pressed last_, before_;  // the last two contacts
+  Field last_gap_;         // gaps of the last contact, valid until the next solve
+  double last_force_ = 0;
   bool converged_ = true;
 };
+
+/// surface_damping() with contacts of the curves, solved to `tolerance`, in place of contacts of the
+/// surface's own grid.
+std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface, const Body& body,
+                                                         const Oscillation& motion,
+                                                         const std::vector<ForceCurve>& curves,
+                                                         const SurfaceDampingOptions& options,
+                                                         const KeptContacts& contacts,
+                                                         double tolerance);
 
 }  // namespace salebra::detail

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -14,6 +15,7 @@
 #include <salebra/surface/moments.hpp>
 
 #include "base/memory.hpp"
+#include "base/stage_time.hpp"
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
@@ -89,6 +91,7 @@ class Load {
         motion_(motion),
         options_(options),
         sample_(curve.samples[k]),
+        index_(k),
         ratio_(ratio_on(curve, k, modulus_ratio_of(body))),
         spring_error_(detail::spring_error(body, ratio_.exponent())),
         amplitude_(detail::normal_amplitude(motion)),
@@ -122,6 +125,7 @@ class Load {
   bool follows_slip() const { return slip_.has_value(); }
   Hold hold() const { return hold_; }
   bool is_wide() const { return wide_; }
+  std::size_t index() const { return index_; }
   double direction() const { return detail::direction_of(sample_); }
   WideOscillation::Load load() const { return {sample_.pressure, sample_.force}; }
   double possible_amplitude() const { return possible_amplitude_; }
@@ -159,11 +163,13 @@ class Load {
     return contact;
   }
 
-  /// Finds the loss on one grid of nx points along x, with contacts by contact_options() of a load
-  /// on this grid; loads in other directions use the same contacts.
+  /// Finds the loss without slip on one grid of nx points along x, with contacts by
+  /// contact_options() of a load on this grid; loads in other directions use the same contacts.
   void solve(SurfaceContacts& contacts_at, Index nx) {
     const bool first = values_.empty();
     const double center = contacts_at.indentation_at(sample_.pressure);
+    // While the contact is the last one, its stiffness needs no second solve.
+    contacts_at.at(center);
     if (first) {
       widen(contacts_at, center);
       // K_t/K is computed on the first grid only: both stiffnesses see the same cells, so it hardly
@@ -179,11 +185,37 @@ class Load {
     }
     values_.push_back(integrate(contacts_at, center));
     values_.back().points = nx;
+    check(contacts_at);
+    // Only where slip reaches deep, contacts of other loads lie there.
+    constexpr double deep = 0.25;
+    if (solved_ && center - half_ - (solved_->mean - amplitude_ - slip_->depth()) <=
+                       std::max(half_, deep * sample_.force / sample_.normal_stiffness))
+      add_slip(contacts_at);
+  }
+
+  /// Adds the loss with slip on the grid of the last solve(), where slip reaches so deep that
+  /// contacts of other loads serve it.
+  void add_slip(SurfaceContacts& contacts_at) {
+    if (!solved_) return;
+    add_slip(values_.back(), contacts_at, *solved_);
+    solved_.reset();
+    check(contacts_at);
+  }
+
+ private:
+  /// Contacts of the range of the oscillation on the last grid, for the loss with slip.
+  struct Solved {
+    std::vector<StiffnessSample> contacts;
+    KrigedStiffness kriged;
+    double mean, center;
+    int intervals;
+  };
+
+  void check(const SurfaceContacts& contacts_at) {
     values_.back().converged = values_.back().converged && contacts_at.usable();
     values_.back().leaving_share = contacts_at.leaving_share();
   }
 
- private:
   /// Tolerance of the contact solver. The second difference of F over the range of contacts is
   /// about F(KH/F)², with half the range H. A thousandth of this is smaller than the scatter by
   /// cells.
@@ -197,8 +229,8 @@ class Load {
     const double wanted =
         enough_cells / std::pow(4.0, options_.coarsen ? 1 : std::min(options_.refinements, 1));
     while (half_ < widest && contacts_at.usable()) {
-      const StiffnessSample high = contacts_at.without_stiffness_at(center + half_),
-                            low = contacts_at.without_stiffness_at(center - half_);
+      const StiffnessSample high = contacts_at.at(center + half_),
+                            low = contacts_at.at(center - half_);
       // Cells that enter at the same time count as one.
       const double cells = (high.cells - low.cells) / std::max(high.together, low.together);
       if (cells >= wanted) break;
@@ -226,7 +258,7 @@ class Load {
       contacts = std::move(finer);
       if (!contacts_at.usable()) return {};
       // The factors of the variances (scales_), estimated on one grid, serve as prior on the next.
-      const KrigedStiffness kriged(contacts, indices(center));
+      KrigedStiffness kriged(contacts, indices(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
       GridValue value = evaluate(kriged, center, scales);
@@ -241,30 +273,35 @@ class Load {
       scales_ = scales;
       const double mean = mean_position(kriged, center);
       if (slip_ && std::isfinite(mean))
-        add_slip(value, contacts_at, contacts, kriged, mean, center, n);
+        solved_.emplace(std::move(contacts), std::move(kriged), mean, center, n);
       return value;
     }
   }
 
   /// Adds W with friction, −∫K_t w' dζ (w: loss of one spring, spring_loss.hpp). The range of the
-  /// oscillation uses its own contacts. Below it, further contacts are solved in pieces of at most
-  /// 1.5 F/K: over a wider piece no parabola with a random function of one variance describes K,
+  /// oscillation uses its own contacts. Below it are pieces of at most 1.5 F/K, with contacts of
+  /// other loads where these lie, and further contacts elsewhere: over a wider piece no parabola with a random function of one variance describes K,
   /// since K and its variance fall with the load. Adjacent pieces share a contact and w is
   /// continuous, so K at their border cancels. Springs below the last piece carry the force F and
   /// add less than F times the largest |w'|. Pieces are added until this bound is 0.3 % of W, and
   /// the bound counts as an error by the number of intervals. No piece is needed if springs slip so
   /// little below the oscillation that K_t does not change over their depth.
-  void add_slip(GridValue& value, SurfaceContacts& contacts_at,
-                const std::vector<StiffnessSample>& contacts, const KrigedStiffness& kriged,
-                double mean, double center, int intervals) {
-    const bool first = values_.empty(), chooses = intervals == intervals_;
+  void add_slip(GridValue& value, SurfaceContacts& contacts_at, const Solved& solved) {
+    const auto& [contacts, kriged, mean, center, intervals] = solved;
+    const bool first = values_.size() == 1, chooses = intervals == intervals_;
     const double least = mean - amplitude_;
     KrigedWork sum{0, 0, 0, 0, 0};
     double by_half = 0, rest = 0;
+    // The same springs are asked for with and without the first piece below the oscillation.
+    std::map<double, double> losses;
+    const auto loss_at = [&](double indentation) {
+      const auto [found, is_new] = losses.try_emplace(indentation);
+      if (is_new) found->second = (*slip_)(indentation - mean);
+      return found->second;
+    };
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
-      Eigen::VectorXd of_spring =
-          weights_of_springs(at, least, [&](double index) { return (*slip_)(index - mean); });
+      Eigen::VectorXd of_spring = weights_of_springs(at, least, loss_at);
       // K_t is constant below the oscillation, so w may be set to 0 at the lower end of its range.
       if (shallow_) of_spring(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_spring, at, between, ratio_);
@@ -283,7 +320,7 @@ class Load {
                                 const Eigen::VectorXd& at, const KrigedStiffness& between) {
       add(samples, at, between, scales_);
       const Eigen::VectorXd opening = weights_of_springs(
-          at, least, [&](double index) { return (*slip_)(std::max(index, least) - mean); });
+          at, least, [&](double index) { return loss_at(std::max(index, least)); });
       value.relaxation_work = between
                                   .estimate(tangential(opening - lowest * between.weights_at(least),
                                                        at, between, ratio_),
@@ -318,24 +355,19 @@ class Load {
       } else if (piece == pieces_.size()) {
         break;
       }
-      const double end = std::max(0.0, mean - pieces_[piece]);
-      const double half = (top - end) / 2, middle = (top + end) / 2;
-      if (!(half > 1e-9 * amplitude_)) break;
-      std::vector<StiffnessSample> inside;
-      for (int k = 0; k <= intervals; ++k)
-        inside.push_back(contacts_at.at(k == 0 ? top
-                                        : k == intervals
-                                            ? end
-                                            : middle + half * std::cos(pi * k / intervals)));
-      if (!contacts_at.usable()) break;
-      const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
-        return k == 0             ? top
-               : k == piece_parts ? end
-                                  : middle + half * std::cos(pi * double(k) / piece_parts);
-      });
+      const double lowest_end = std::max(0.0, mean - pieces_[piece]);
+      if (!(top - lowest_end > 2e-9 * amplitude_)) break;
       if (first && piece == 0)
-        joined_ = center + half_ - end < widest_piece * sample_.force / sample_.normal_stiffness;
-      if (joined_ && piece == 0) {
+        joined_ =
+            center + half_ - lowest_end < widest_piece * sample_.force / sample_.normal_stiffness;
+      const bool joined = joined_ && piece == 0;
+      const Eigen::VectorXd nodes =
+          nodes_of_piece(contacts_at, top, lowest_end, lowest_end <= bottom, intervals);
+      std::vector<StiffnessSample> inside;
+      for (const double node : nodes) inside.push_back(contacts_at.at(node));
+      if (!contacts_at.usable()) break;
+      const Eigen::VectorXd at = positions_between(nodes);
+      if (joined) {
         std::vector<StiffnessSample> samples = contacts;
         samples.insert(samples.end(), inside.begin() + 1, inside.end());
         Eigen::VectorXd all(window.size() + piece_parts);
@@ -349,10 +381,44 @@ class Load {
         scales.add(between.log_likelihood());
         add(inside, at, between, scales);
       }
-      top = end;
+      top = nodes(nodes.size() - 1);
     }
     if (chooses) interval_error_with_slip_ = std::hypot(sum.work - by_half, rest);
     value.with_slip = sum;
+  }
+
+  /// Indentations of the contacts of a piece from `top` down to `end`, at equal angles; contacts of
+  /// other loads take their place where they are nearer than a third of the way to the next one.
+  /// deepest: whether the piece must reach `end`.
+  static Eigen::VectorXd nodes_of_piece(const SurfaceContacts& contacts_at, double top, double end,
+                                        bool deepest, int intervals) {
+    const double half = (top - end) / 2, middle = (top + end) / 2;
+    const auto node = [&](Index k) {
+      return k == 0           ? top
+             : k == intervals ? end
+                              : middle + half * std::cos(pi * double(k) / intervals);
+    };
+    return Eigen::VectorXd::NullaryExpr(intervals + 1, [&](Index k) {
+      if (k == 0 || !(node(k) > 0)) return node(k);
+      const double above = node(k - 1) - node(k),
+                   below = k < intervals ? node(k) - node(k + 1) : above;
+      const double reach = std::min(above, below) / 3;
+      return contacts_at.known_near(node(k), node(k) - reach,
+                                    node(k) + (deepest && k == intervals ? 0 : reach));
+    });
+  }
+
+  /// Indentations of a piece at which K is predicted: at equal angles, and stretched between the
+  /// contacts at `nodes`.
+  static Eigen::VectorXd positions_between(const Eigen::VectorXd& nodes) {
+    const Index intervals = nodes.size() - 1, parts = piece_parts / intervals;
+    return Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
+      const Index above = k / parts;
+      if (k % parts == 0) return nodes(above);
+      const auto cosine = [](Index part) { return std::cos(pi * double(part) / piece_parts); };
+      const double from = cosine(above * parts), to = cosine((above + 1) * parts);
+      return std::lerp(nodes(above), nodes(above + 1), (from - cosine(k)) / (from - to));
+    });
   }
 
   /// Weights in −∫K w' dζ = Σ weights × K(positions), for K linear between the positions. w has
@@ -360,20 +426,21 @@ class Load {
   /// much smaller than that of two positions.
   Eigen::VectorXd weights_of_springs(const Eigen::VectorXd& indices, double least,
                                      const auto& loss) const {
-    const auto integral = [&](double from, double to) {
-      return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
-    };
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(indices.size());
+    double loss_above = loss(indices(0));
     for (Index i = 0; i + 1 < indices.size(); ++i) {
-      double sum = 0, from = indices(i);
+      double sum = 0, from = indices(i), loss_from = loss_above;
       for (const double bend : {least, least - slip_->depth(), indices(i + 1)}) {
         if (bend >= from || bend < indices(i + 1)) continue;
-        sum += integral(from, bend);
+        const double loss_to = loss(bend);
+        sum += (bend - from) * (loss_from + 4 * loss((from + bend) / 2) + loss_to) / 6;
         from = bend;
+        loss_from = loss_to;
       }
       const double mean = sum / (indices(i + 1) - indices(i));
-      weights(i) += mean - loss(indices(i));
-      weights(i + 1) += loss(indices(i + 1)) - mean;
+      weights(i) += mean - loss_above;
+      weights(i + 1) += loss_from - mean;
+      loss_above = loss_from;
     }
     return weights;
   }
@@ -497,6 +564,7 @@ class Load {
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   const ForceSample sample_;
+  const std::size_t index_;  // in the curve
   StiffnessRatio ratio_;
   const double spring_error_;
   const double amplitude_;
@@ -517,6 +585,7 @@ class Load {
   bool joined_ = false;
   VarianceScales scales_;
   std::vector<GridValue> values_;
+  std::optional<Solved> solved_ = {};
 };
 
 ErrorBudget budget_of(const KrigedWork& own, double by_intervals) {
@@ -684,8 +753,8 @@ struct WideLoads {
 /// Solves the contacts of several loads on one grid, in parallel if the surface is not spread over
 /// processes. open: for each load, the loads of all directions, which share their contacts.
 void solve_on(const Surface& fine, const Body& body, const std::vector<std::vector<Load*>>& all,
-              std::vector<WideLoads>& wide, bool along_x_only,
-              const SurfaceDampingOptions& options) {
+              std::vector<WideLoads>& wide, bool along_x_only, const SurfaceDampingOptions& options,
+              const detail::KeptContacts& kept, double kept_tolerance) {
   const Communicator& communicator = fine.communicator;
   // The wide loads share their contacts and are one task, the last one.
   std::vector<std::vector<Load*>> open = all;
@@ -699,36 +768,58 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
                  wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
                  communicator);
   std::atomic<double> residual = 0;  // residual of the contact that last reported its progress
-  detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
-                           const int done = loop.finished();
-                           return !options.on_progress ||
-                                  options.on_progress({"damping",
-                                                       double(done) / double(open.size()), done,
-                                                       residual});
-                         }});
-  const Progress progress = [&](const ProgressReport& report) {
-    residual = report.residual;
-    return loop.going_on();
+  std::vector<std::optional<SurfaceContacts>> contacts(open.size());
+  // First every load without slip, and then slip, which uses the contacts of all loads.
+  const int all_tasks = static_cast<int>(open.size() + narrow);
+  int begun = 0;
+  const auto for_loads = [&](std::size_t count, const auto& body) {
+    detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
+                             const int done = begun + loop.finished();
+                             return !options.on_progress ||
+                                    options.on_progress(
+                                        {"damping", double(done) / all_tasks, done, residual});
+                           }});
+    const Progress progress = [&](const ProgressReport& report) {
+      residual = report.residual;
+      return loop.going_on();
+    };
+    // The highest loads take longest, so they are solved first.
+    loop.run(static_cast<Index>(count),
+             [&](Index turn) { body(count - 1 - static_cast<std::size_t>(turn), progress); });
+    if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+    begun += static_cast<int>(count);
   };
-  const auto contacts = [&](const NormalContactOptions& contact) {
-    return SurfaceContacts(fine, body, contact, along_x_only);
-  };
-  // The highest loads take longest, so they are solved first.
-  loop.run(static_cast<Index>(open.size()), [&](Index turn) {
-    const std::size_t at = open.size() - 1 - static_cast<std::size_t>(turn);
+  for_loads(open.size(), [&](std::size_t at, const Progress& progress) {
+    const NormalContactOptions contact = at < narrow
+                                             ? open[at].front()->contact_options(progress)
+                                             : wide.front().oscillation->contact_options(progress);
+    SurfaceContacts& contacts_at = contacts[at].emplace(fine, body, contact, along_x_only);
     if (at < narrow) {
-      SurfaceContacts contacts_at = contacts(open[at].front()->contact_options(progress));
+      const Load& load = *open[at].front();
+      if (load.index() < kept.size() && kept[load.index()] && kept_tolerance <= contact.tolerance)
+        contacts_at.take(load.load().pressure, *kept[load.index()]);
       for (Load* load : open[at]) load->solve(contacts_at, fine.grid.nx);
-      return;
+    } else {
+      for (WideLoads& one : wide) {
+        const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
+        for (std::size_t k = 0; k < one.loads.size(); ++k)
+          one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx,
+                             contacts_at.leaving_share());
+      }
     }
-    SurfaceContacts contacts_at = contacts(wide.front().oscillation->contact_options(progress));
-    for (WideLoads& one : wide) {
-      const std::vector<WideLoss> losses = one.oscillation->on(contacts_at);
-      for (std::size_t k = 0; k < one.loads.size(); ++k)
-        one.loads[k]->take(losses[k], *one.oscillation, fine.grid.nx, contacts_at.leaving_share());
-    }
+    contacts_at.free_fields();
   });
-  if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+  std::vector<StiffnessSample> samples;
+  for (const auto& contacts_at : contacts)
+    if (contacts_at->usable())
+      std::ranges::copy(contacts_at->samples(), std::back_inserter(samples));
+  for_loads(narrow, [&](std::size_t at, const Progress& progress) {
+    SurfaceContacts& contacts_at = *contacts[at];
+    contacts_at.add(samples);
+    contacts_at.report_to(progress);
+    for (Load* load : open[at]) load->add_slip(contacts_at);
+    contacts_at.free_fields();
+  });
 }
 
 /// ρ at the loads of a curve whose K_t comes from stick solves; empty for a curve with K_t =
@@ -770,6 +861,14 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
                                                          const Oscillation& motion,
                                                          const std::vector<ForceCurve>& curves,
                                                          const SurfaceDampingOptions& options) {
+  return detail::surface_damping(surface, body, motion, curves, options, {}, 0);
+}
+
+std::vector<std::vector<SurfaceDamping>> detail::surface_damping(
+    const Surface& surface, const Body& body, const Oscillation& motion,
+    const std::vector<ForceCurve>& curves, const SurfaceDampingOptions& options,
+    const KeptContacts& contacts, double tolerance) {
+  const detail::StageTime time(detail::Stage::oscillation);
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curves, options);
@@ -823,7 +922,8 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    solve_on(fine, body, open, wide, along_x_only, options);
+    solve_on(fine, body, open, wide, along_x_only, options,
+             halving == 0 ? contacts : detail::KeptContacts(), tolerance);
   }
   std::vector<std::vector<SurfaceDamping>> results(curves.size());
   for (std::size_t d = 0; d < curves.size(); ++d)
@@ -838,7 +938,7 @@ std::vector<std::vector<SurfaceDamping>> surface_damping(const Surface& surface,
   const bool free = *options.seam == SeamCheck::free;
   if (free) without.boundary = Boundary::free;
   const auto unseamed =
-      surface_damping(free ? surface : windowed(surface), body, motion, curves, without);
+      salebra::surface_damping(free ? surface : windowed(surface), body, motion, curves, without);
   for (std::size_t d = 0; d < curves.size(); ++d)
     for (std::size_t k = 0; k < results[d].size(); ++k)
       add_seam(results[d][k], unseamed[d][k], loads[d][k].values(), options);

@@ -18,6 +18,7 @@
 #include <salebra/study/parts.hpp>
 #include <string>
 
+#include "base/stage_time.hpp"
 #include "base/task_pool.hpp"
 #include "realisation_record.hpp"
 
@@ -295,6 +296,7 @@ Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
   const Progress begun = [&](const ProgressReport&) {
     return !progress || progress({.stage = "realisation"});
   };
+  const StageTime time(Stage::surfaces);
   return analyse_realisation(study_surface(configuration, seed, begun, communicator), configuration,
                              seed, pressures, progress);
 }

@@ -118,6 +118,13 @@ ModelResult boundary_elements(ModelWork& work) {
     const std::scoped_lock lock(picture_guard);
     realisation.picture.add_contact(std::int16_t(k), state, surface);
   };
+  if (work.contacts) {
+    work.contacts->resize(work.pressures.size());
+    sweep.on_stiffness = [&](std::size_t k, const NormalContactState& state, double stiffness,
+                             const Field& growth) {
+      (*work.contacts)[k].emplace(state, stiffness, growth, surface);
+    };
+  }
   if (work.configuration.adhesion) return adhesive_elements(work, sweep);
   std::vector<ForceCurve> curves = sweep_directions(surface, work.configuration.pressed(),
                                                     work.pressures, work.directions, sweep);

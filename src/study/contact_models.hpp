@@ -7,6 +7,8 @@
 #include <salebra/surface/summits.hpp>
 #include <vector>
 
+#include "damping/surface_contacts.hpp"
+
 namespace salebra::detail {
 
 /// Input of a contact model. The model returns its force curve and those members of ModelResult
@@ -26,6 +28,8 @@ struct ModelWork {
   Realisation& realisation;
   /// Progress of this model. After a stop the model throws Interrupted or returns any result.
   Progress progress;
+  /// Receives the contacts of the boundary-element model, if not null.
+  KeptContacts* contacts = nullptr;
 };
 
 /// Direction of the lay of a surface of a study, from the x axis, rad; NaN without a lay.

@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <tuple>
+#include <utility>
 
 #include "base/random.hpp"
 
@@ -51,6 +55,28 @@ double quantile(std::vector<double>& values, double probability) {
                           ? *std::min_element(values.begin() + below + 1, values.end())
                           : low;
   return low + (position - double(below)) * (high - low);
+}
+
+/// The draws of all resamples of a few values. All quantities of an ensemble use the same draws, so
+/// the last table is kept. More values would need too much memory: empty.
+std::shared_ptr<const std::vector<std::int32_t>> draws_of(std::uint64_t seed, int resamples,
+                                                          std::int32_t count) {
+  constexpr std::int32_t most = 64;
+  if (count > most) return {};
+  using Key = std::tuple<std::uint64_t, int, std::int32_t>;
+  static std::mutex mutex;
+  static std::pair<Key, std::shared_ptr<const std::vector<std::int32_t>>> last;
+  const Key key{seed, resamples, count};
+  const std::lock_guard lock(mutex);
+  if (!last.second || last.first != key) {
+    const auto values = std::size_t(count);
+    std::vector<std::int32_t> draws(std::size_t(resamples) * values);
+    for (int number = 0; number < resamples; ++number)
+      fill_draws(seed, number, 0, count, {draws.data() + std::size_t(number) * values, values},
+                 bootstrap_stream);
+    last = {key, std::make_shared<const std::vector<std::int32_t>>(std::move(draws))};
+  }
+  return last.second;
 }
 
 }  // namespace
@@ -122,14 +148,14 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values, Sign sign) const
   if (sample.deviation <= 1e-14 * std::abs(sample.mean)) return estimate;
   std::vector<double> statistics(static_cast<std::size_t>(resamples_));
   const auto count = std::int32_t(kept.size());
-  // Draws random numbers when they are needed; a table of them would take 8 kB per value.
+  const auto draws = draws_of(seed_, resamples_, count);
   const auto resample_slab = [&](Index begin, Index end) {
-    std::vector<std::int32_t> positions(kept.size());
+    std::vector<std::int32_t> drawn_now(draws ? 0 : kept.size());
     std::vector<double> resample(kept.size());
     for (Index number = begin; number < end; ++number) {
-      fill_draws(seed_, std::int32_t(number), 0, count, positions, bootstrap_stream);
-      std::ranges::transform(positions, resample.begin(),
-                             [&](std::int32_t position) { return kept[std::size_t(position)]; });
+      if (!draws) fill_draws(seed_, std::int32_t(number), 0, count, drawn_now, bootstrap_stream);
+      const std::int32_t* positions = draws ? draws->data() + number * count : drawn_now.data();
+      for (std::size_t k = 0; k < kept.size(); ++k) resample[k] = kept[std::size_t(positions[k])];
       const Moments drawn = moments_of(resample);
       const double shift = drawn.mean - sample.mean;
       // A resample that repeats a single value has no scatter; the limit of the divisor puts it

@@ -51,7 +51,7 @@ class Bootstrap {
   explicit Bootstrap(int resamples = 2000, std::uint64_t seed = 1);
 
   /// Mean and interval of the values that are not NaN. Time: proportional to resamples × values;
-  /// memory: 12 bytes per value and thread.
+  /// memory: 12 bytes per value and thread, and half a megabyte.
   EnsembleMean mean(const std::vector<double>& values, Sign sign = Sign::positive) const;
 
  private:

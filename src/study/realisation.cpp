@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "base/stage_time.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
 #include "damping/phase_quadrature.hpp"
@@ -60,6 +61,7 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
 
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
+  const detail::StageTime time(detail::Stage::oscillation);
   const double modulus_ratio = configuration.pressed().modulus_ratio();
   const bool adhesive = configuration.adhesion.has_value();
   std::optional<ExponentialLaw> fitted_law;
@@ -124,8 +126,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
 /// In the results of the boundary-element model in all directions, replaces losses computed from the
 /// curve by losses from contacts solved inside the oscillation.
 void resolve_damping(const std::vector<ModelResult*>& results, const Surface& surface,
-                     const StudyConfiguration& configuration, std::uint64_t seed,
-                     const Progress& progress) {
+                     const detail::KeptContacts& contacts, const StudyConfiguration& configuration,
+                     std::uint64_t seed, const Progress& progress) {
   SurfaceDampingOptions options = surface_damping_options(configuration, surface.grid, seed);
   options.on_progress = progress;
   options.friction_coefficient = configuration.known.friction_coefficient;
@@ -133,7 +135,8 @@ void resolve_damping(const std::vector<ModelResult*>& results, const Surface& su
   std::vector<ForceCurve> curves;
   for (const ModelResult* result : results) curves.push_back(result->curve);
   const std::vector<std::vector<SurfaceDamping>> resolved =
-      surface_damping(surface, configuration.pressed(), configuration.motion, curves, options);
+      detail::surface_damping(surface, configuration.pressed(), configuration.motion, curves,
+                              options, contacts, configuration.tolerance);
   // In a mean over surfaces large errors average out. A study of a single surface drops a loss that
   // does not exceed its error.
   const bool alone = detail::seeds_of(configuration).size() == 1;
@@ -293,6 +296,7 @@ Hold hold_of(const StudyConfiguration& configuration, const Surface& surface,
 
 Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, std::uint64_t seed,
                                 const std::vector<double>& pressures, const Progress& progress) {
+  const detail::StageTime time(detail::Stage::statistics);
   StudyConfiguration configuration = asked;
   if (!configuration.found_hold)
     configuration.found_hold = hold_of(asked, drawn, pressures.front(), progress);
@@ -336,6 +340,9 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
     detail::ModelWork work{configuration, surface,   summits,     shells, pressures,
                            directions,    lay_angle, realisation, share};
     const bool bem = model.id == ContactModel::bem;
+    const bool resolves = bem && configuration.intervals != 0 && !configuration.adhesion;
+    detail::KeptContacts contacts;
+    if (resolves) work.contacts = &contacts;
     ModelResult result;
     if (bem)
       result = model.press(work);
@@ -350,8 +357,7 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& asked, 
     if (bem)
       for (ModelResult& other : realisation.other_directions) results.push_back(&other);
     for (ModelResult* one : results) analyse(*one, configuration, scale);
-    if (bem && configuration.intervals != 0 && !configuration.adhesion)
-      resolve_damping(results, surface, configuration, seed, share);
+    if (resolves) resolve_damping(results, surface, contacts, configuration, seed, share);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

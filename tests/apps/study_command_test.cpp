@@ -43,6 +43,8 @@ TEST_CASE("A study's answer fits a screen: numbers, validity, accuracy, law and 
   CHECK_THAT(test.run("study study.toml --quiet --verbose").out,
              Contains("boundary elements") && Contains("GW, summits from spectral moments") &&
                  Contains("l/h_rms"));
+  CHECK_THAT(test.run("study study.toml --verbose").err,
+             Contains("processor time") && Contains("normal stiffness"));
   CHECK_THAT(test.run("study study.toml --progress always").err, Contains("study"));
   CHECK(test.run("study study.toml --quiet --progress never").err.empty());
 }

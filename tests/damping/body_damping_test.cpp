@@ -120,7 +120,7 @@ TEST_CASE("Cells that leave under a thin stiff coating are counted", "[body]") {
   const auto count = [&](const Body& body) {
     SurfaceContacts contacts(surface, body, {});
     const double deepest = contacts.indentation_at(pressure_of(surface, body));
-    for (int k = 1; k < 64; ++k) contacts.without_stiffness_at(deepest * k / 64);
+    for (int k = 1; k < 64; ++k) contacts.at(deepest * k / 64);
     REQUIRE(contacts.usable());
     return contacts.leaving_share();
   };

@@ -204,8 +204,8 @@ TEST_CASE("Two directions of one call are those of two calls", "[direction]") {
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     REQUIRE(both[0][k].converged);
     CHECK(both[0][k].work_per_cycle == across[k].work_per_cycle);
-    // The solver starts from other contacts, so the last digits differ.
-    CHECK(both[1][k].work_per_cycle == Approx(along[k].work_per_cycle).epsilon(1e-6));
+    // Below the oscillation each direction may use contacts of the other.
+    CHECK(both[1][k].work_per_cycle == Approx(along[k].work_per_cycle).epsilon(1e-3));
   }
 }
 

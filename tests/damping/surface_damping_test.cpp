@@ -782,6 +782,35 @@ TEST_CASE("Forces of contacts that start from each other know nothing of the tol
   }
 }
 
+TEST_CASE("Contacts of a sweep give the losses that the same contacts solved anew give") {
+  const Surface surface = rough(64, 5);
+  const double slip = GENERATE(std::numeric_limits<double>::quiet_NaN(), 0.3);
+  SweepOptions sweep;
+  sweep.contact.tolerance = 1e-9;
+  const std::vector<double> pressures = loads(4);
+  detail::KeptContacts kept(pressures.size());
+  sweep.on_stiffness = [&](std::size_t k, const NormalContactState& state, double stiffness,
+                           const Field& growth) {
+    kept[k].emplace(state, stiffness, growth, surface);
+  };
+  const std::vector<ForceCurve> curves{sweep_pressures(surface, material, pressures, sweep)};
+  SurfaceDampingOptions options = converged_options();
+  options.friction_coefficient = slip;
+  options.excursion = 1e-8;
+  const Oscillation motion = drag(surface, 0.02);
+  const auto anew = surface_damping(surface, material, motion, curves, options)[0];
+  const auto begun =
+      detail::surface_damping(surface, material, motion, curves, options, kept, 1e-9)[0];
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    CAPTURE(k);
+    REQUIRE(anew[k].converged);
+    CHECK(begun[k].work_per_cycle_without_slip ==
+          Approx(anew[k].work_per_cycle_without_slip).epsilon(1e-4));
+    CHECK(begun[k].work_per_cycle == Approx(anew[k].work_per_cycle).epsilon(1e-4));
+    CHECK(begun[k].indentation == Approx(anew[k].indentation).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("A loss below zero is no result") {
   // If K_t/K falls more steeply than on any surface, K_t falls with the indentation.
   const Surface surface = rough(64, 3);

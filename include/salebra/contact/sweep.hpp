@@ -36,6 +36,10 @@ struct SweepOptions {
   /// Called with the index in `pressures` and the state of each load as soon as it has converged,
   /// from several threads at once if loads are concurrent.
   std::function<void(std::size_t, const NormalContactState&)> on_state = {};
+  /// Called after on_state with the same arguments, K in N/m, and dp/dδ of each cell in Pa/m, for
+  /// loads whose K was computed.
+  std::function<void(std::size_t, const NormalContactState&, double, const Field&)> on_stiffness =
+      {};
 };
 
 /// Converts one contact to a sample of a curve, with the stiffnesses that `options` requests; its

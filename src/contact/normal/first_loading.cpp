@@ -61,21 +61,28 @@ constexpr double load_tolerance = 1e-3;
 constexpr int max_loadings = 20;
 
 /// Returns the contact of the residual surface at the highest load of an oscillation about the
-/// nominal pressure, without further plastic flow; nothing if this contact is full.
-std::optional<NormalContactState> at_top(const Surface& residual, double contact_modulus,
+/// nominal pressure, without further plastic flow; nothing if this contact is full. loaded: the
+/// contact that left the residual surface; unchanged: whether this is the contact at the nominal
+/// pressure and no cell yielded.
+std::optional<NormalContactState> at_top(const Surface& surface, double contact_modulus,
                                          double nominal_pressure, double normal_amplitude,
-                                         const Field& start, NormalContactOptions options) {
+                                         const NormalContactState& loaded, bool unchanged,
+                                         NormalContactOptions options) {
   options.hardness = std::numeric_limits<double>::infinity();
-  options.initial_pressure = &start;
-  const NormalContactState mean =
-      press(residual, contact_modulus, at_pressure(nominal_pressure), options);
-  if (!mean.converged()) return mean;
-  const double top = mean.indentation + normal_amplitude;
+  double mean = loaded.indentation;
+  if (!unchanged) {
+    options.initial_pressure = &loaded.contact_pressure;
+    const NormalContactState unloaded =
+        press(surface, contact_modulus, at_pressure(nominal_pressure), options);
+    if (!unloaded.converged()) return unloaded;
+    mean = unloaded.indentation;
+    options.initial_pressure = nullptr;
+  }
+  const double top = mean + normal_amplitude;
   if (options.boundary == Boundary::periodic &&
-      top >= (residual.heights.maxCoeff() - residual.heights).mean())
+      top >= (surface.heights.maxCoeff() - surface.heights).mean())
     return {};
-  options.initial_pressure = &mean.contact_pressure;
-  return press(residual, contact_modulus, at_indentation(top), options);
+  return press(surface, contact_modulus, at_indentation(top), options);
 }
 
 }  // namespace
@@ -141,8 +148,8 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
   ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
   for (int loading = 1; residual.converged(); ++loading) {
     const std::optional<NormalContactState> top =
-        at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude,
-               state.contact_pressure, options);
+        at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude, state,
+               loading == 1 && !residual.first_loading.yielded(), options);
     if (!top) return residual;
     residual.termination = top->converged() && loading >= max_loadings
                                ? Termination::iteration_limit

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/memory.hpp"
+#include "base/stage_time.hpp"
 #include "contact_memory.hpp"
 #include "nested_contact.hpp"
 
@@ -442,6 +443,7 @@ NormalContactState press_checked(const Surface& surface, const Scaled& scaled,
 
 NormalContactState press(const Surface& surface, double contact_modulus,
                          const OperatingPoint& point, const NormalContactOptions& options) {
+  const detail::StageTime time(detail::Stage::contacts);
   check(surface, contact_modulus, options);
   return press_checked(surface, Scaled(surface.grid, contact_modulus), point, options,
                        options.boundary == Boundary::periodic);
@@ -452,6 +454,7 @@ NormalContactState press(const Surface& surface, const Body& body, const Operati
   if (const auto& half_space = body.half_space_material())
     return press(surface, half_space->contact_modulus, point, options);
   detail::require_pressable(body, surface.grid, options.boundary);
+  const detail::StageTime time(detail::Stage::contacts);
   // Only a prescribed indentation needs the uniform displacement during the solve. Otherwise it is
   // added to the result, so that both data have the same pressures.
   const bool by_indentation = point.control == ControlQuantity::indentation;

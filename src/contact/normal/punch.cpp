@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "active_set_cg.hpp"
+#include "base/stage_time.hpp"
 #include "contact/half_space/cell_window.hpp"
 #include "tile_sums.hpp"
 
@@ -288,6 +289,7 @@ struct PunchProblem {
 
 PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimits& limits,
                            Field* punch_pressure) {
+  const detail::StageTime time(detail::Stage::stiffness);
   const Field& p = problem.p;
   const double bound = problem.bound, contact_modulus = problem.contact_modulus;
   const Grid2D& grid = problem.grid;
@@ -343,11 +345,13 @@ double stiffness_of(const NormalContactState& state, const Grid2D& grid, double 
   const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
   if (full && state.communicator.all_agree(elastic.all())) return *full;
   if (state.communicator.all_agree(!elastic.any())) return 0;
-  const PunchStiffness punch = press_punch(
-      {state.contact_pressure, options.hardness, grid, state.communicator, contact_modulus,
-       response, options.boundary, options.precision},
-      {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
-      punch_pressure);
+  const PunchStiffness punch =
+      press_punch({state.contact_pressure, options.hardness, grid, state.communicator,
+                   contact_modulus, response, options.boundary, options.precision},
+                  {.relative_gain = std::clamp(0.1 * options.tolerance, 1e-11, 1e-7),
+                   .max_iterations = options.max_iterations,
+                   .keep_going = keep_going(options.on_progress)},
+                  punch_pressure);
   return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -6,6 +6,7 @@
 #include <salebra/contact/tangential/stick.hpp>
 
 #include "base/special_values.hpp"
+#include "base/stage_time.hpp"
 #include "contact/half_space/normal_symbol.hpp"
 #include "surface_response.hpp"
 #include "tangential_workspace.hpp"
@@ -119,6 +120,7 @@ template <class SystemOf>
 StickStiffness stiffness_of(const ContactSet& contact, const Grid2D& grid,
                             const SystemOf& system_of, const StickOptions& options,
                             bool along_x_only, const Field& guess) {
+  const detail::StageTime time(detail::Stage::stick);
   detail::ContactSystem system =
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
