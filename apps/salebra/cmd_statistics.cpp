@@ -278,7 +278,7 @@ void analyse(const StatisticsArguments& arguments, const FilteredSurface& surfac
     session.plot(figures::figure_of(
         surface,
         {fit.of_lay && other && !surfaces.measured ? std::move(other) : std::move(spectrum),
-         fit.mean, fit.of_lay, lay.angle}));
+         fit.mean, fit.of_lay, lay}));
   if (!arguments.all) return session.answer(arguments.in_table ? whole : answer);
   std::string text = to_text(whole);
   for (const ResultTable& table : tables)

@@ -823,6 +823,21 @@ TEST_CASE("The tips of a loop of a joint are the numbers of its table", "[joint]
   }
 }
 
+TEST_CASE("A surface with a lay is drawn the same by all commands", "[statistics][plot]") {
+  const ProgramTest test;
+  test.done(
+      "generate --points=128 --size-x 40um --hurst 0.8 --rolloff 10um --short-cutoff 1um "
+      "--rms-height 100nm --lay-angle 20deg --stretch-along 5 --seed 2 -o ground.h5 --plot a.json");
+  test.done("statistics ground.h5 --plot b.json");
+  test.done("statistics ground.h5 --plot b.svg");
+  const json generated = json::parse(test.read("a.json"))["panels"],
+             read = json::parse(test.read("b.json"))["panels"];
+  CHECK_THAT(generated[0]["title"].get<std::string>(), Contains("lay at 1"));
+  CHECK(read[0]["title"] == generated[0]["title"]);
+  for (const std::size_t along : {0u, 2u})
+    CHECK(read[1]["curves"][along]["y"].size() == generated[1]["curves"][along]["y"].size());
+}
+
 TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
           "[statistics][plot]") {
   const ProgramTest test;
