@@ -219,8 +219,13 @@ Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
 // Table with a line for each shape, or for each direction of a surface.
 std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std::string& heading,
                      const std::vector<std::string>& shapes) {
-  std::vector<std::vector<std::string>> rows{{heading, "W", "W over Eq. (12) or (15)",
-                                              "W over finite amplitude", "W over elastic energy"}};
+  // With friction, the loss of the motion as described is that with slip.
+  const bool slips =
+      outcomes.front().frictional && std::isfinite(outcomes.front().friction_coefficient);
+  std::vector<std::vector<std::string>> rows{{heading, slips ? "W without slip" : "W",
+                                              "W over Eq. (12) or (15)", "W over finite amplitude",
+                                              "W over elastic energy"}};
+  if (slips) rows.front().insert(rows.front().begin() + 1, "W with slip");
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const OscillationOutcome& outcome = outcomes[k];
     const auto text = [&](double reference) {
@@ -231,6 +236,9 @@ std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std:
                     text(outcome.intervals.small_amplitude_work),
                     text(outcome.intervals.work_by_force),
                     fmt::format("{:.1e}", outcome.work_per_cycle() / outcome.elastic_energy())});
+    if (slips)
+      rows.back().insert(rows.back().begin() + 1,
+                         format_quantity(outcome.frictional->work_per_cycle, Dimension::energy));
   }
   return to_table(rows, 2, true);
 }
@@ -260,16 +268,19 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
       write_outcome(file, single ? "" : shapes[k] + "/", outcomes[k]);
     file.commit();
   }
-  if (session.has_plot()) session.plot(figures::figure_of(outcomes, shapes));
   const ContactParameters parameters =
       arguments.assumptions.parameters(arguments.material, arguments.friction.friction_coefficient);
+  std::vector<Assumptions> checked;
+  for (const OscillationOutcome& outcome : outcomes)
+    checked.push_back(assumptions_of(outcome, parameters));
+  if (session.has_plot()) session.plot(figures::figure_of(outcomes, shapes, checked));
   Json all;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const OscillationOutcome& outcome = outcomes[k];
     Json object = to_json(outcome);
     if (arguments.decay_length)
       object.add(json_of(exponential_loss(outcome, *arguments.decay_length)));
-    const AssumptionReport assumptions{{assumptions_of(outcome, parameters)}};
+    const AssumptionReport assumptions{{checked[k]}};
     if (single) {
       assumptions.answer(session, object);
     } else {

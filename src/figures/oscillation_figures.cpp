@@ -6,6 +6,7 @@
 #include <cmath>
 #include <salebra/analysis/oscillation.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <variant>
 
 #include "axes.hpp"
@@ -22,28 +23,51 @@ Panel contact_panel(const OscillationOutcome& outcome, const std::string& title)
   return panel;
 }
 
+bool slips(const OscillationOutcome& outcome) {
+  return outcome.frictional && std::isfinite(outcome.friction_coefficient);
+}
+
+/// The loss of the motion as described: with slip where friction is known, followed by that without.
+std::string loss_text(const OscillationOutcome& outcome) {
+  const auto text = [&](double work, double error) {
+    return std::abs(work) > outcome.uncertain_loss() ? error_text(work, error, Dimension::energy)
+                                                     : std::string("no loss");
+  };
+  const std::string stick = text(outcome.work_per_cycle(), outcome.error_estimate());
+  if (!slips(outcome)) return stick == "no loss" ? stick : "W = " + stick;
+  const CycleResult& cycle = *outcome.frictional;
+  return "W = " + text(cycle.work_per_cycle, cycle.step_error) + " with slip, " + stick +
+         " without slip";
+}
+
 Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {
   const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
-  const CycleResult& cycle = *outcome.cycle;
   const double predicted = outcome.intervals.small_amplitude_work;
   const bool lossless = !outcome.over(predicted);
-  std::vector<double> values = column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
   const double reference = lossless ? outcome.elastic_energy() : predicted;
-  for (double& value : values) value /= reference;
   Panel panel;
   panel.title = title;
   panel.x = {.label = "time in periods", .low = 0, .high = 1};
   const std::string work = drag ? "energy released" : "W(t)";
   panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
                                : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
-  panel.curves.push_back({.x = column(cycle, &CycleSample::t), .y = std::move(values), .color = 0});
+  const auto add = [&](const char* name, const CycleResult& cycle) {
+    std::vector<double> values =
+        column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
+    for (double& value : values) value /= reference;
+    panel.curves.push_back(
+        {.name = name, .x = column(cycle, &CycleSample::t), .y = std::move(values)});
+  };
+  add(slips(outcome) ? "no slip" : "", *outcome.cycle);
+  if (slips(outcome)) add("friction", *outcome.frictional);
+  panel.legend = Legend::top_left;
   if (!lossless) panel.lines.push_back({.at = 1, .name = drag ? "Eq. (15)" : "Eq. (12)"});
   return panel;
 }
 
-Panel loop_panel(const OscillationOutcome& outcome) {
+Panel loop_panel(const OscillationOutcome& outcome, const std::string& title) {
   Panel panel;
-  panel.title = "loop";
+  panel.title = title;
   panel.x = axis_of("tangential", false, "displacement x");
   panel.y = axis_of("tangential_force", false, "tangential force F_x");
   const auto add = [&](const char* name, const CycleResult& cycle) {
@@ -52,57 +76,68 @@ Panel loop_panel(const OscillationOutcome& outcome) {
                             .y = column(cycle, &CycleSample::tangential_force)});
   };
   add("no slip", *outcome.cycle);
-  if (std::isfinite(outcome.friction_coefficient)) add("friction", *outcome.frictional);
+  if (slips(outcome)) add("friction", *outcome.frictional);
   if (outcome.coupled) add("coupled", *outcome.coupled);
   panel.legend = Legend::top_left;
   return panel;
 }
 
+std::string setting_of(const OscillationCase& run) {
+  return std::visit([](const auto& motion) { return motion_text(motion); }, run.motion) +
+         ", mean indentation δ = " + format_quantity(run.indentation, Dimension::length, 4) + ", " +
+         std::string(name_of(run.body.boundary)) + " boundary";
+}
+
 }  // namespace
 
 Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
-                 const std::vector<std::string>& names) {
+                 const std::vector<std::string>& names, std::span<const Assumptions> assumptions) {
   Figure figure{.kind = "oscillation", .caption = "Oscillating contacts."};
-  const bool single = outcomes.size() == 1;
-  if (!outcomes.empty()) {
-    const OscillationCase& run = outcomes.front().run;
-    figure.caption += fmt::format(
-        " Motion: {}{}, mean indentation δ = {}; {} boundary; {}.",
-        std::visit([](const auto& motion) { return motion_text(motion); }, run.motion),
-        std::isfinite(outcomes.front().friction_coefficient) && outcomes.front().frictional
-            ? fmt::format(", µ = {:.3g}", outcomes.front().friction_coefficient)
-            : ", no slip",
-        format_quantity(run.indentation, Dimension::length, 4), name_of(run.body.boundary),
-        single ? names.front() : fmt::format("{}", fmt::join(names, ", ")));
-  }
+  const std::size_t count = outcomes.size();
+  if (count == 0) return figure;
+  const bool single = count == 1;
+  const OscillationOutcome& first = outcomes.front();
+  const bool alike = std::ranges::all_of(outcomes, [&](const OscillationOutcome& one) {
+    return setting_of(one.run) == setting_of(first.run);
+  });
+  figure.caption += alike ? " Motion: " + setting_of(first.run) : std::string(" Motions");
+  for (std::size_t k = 0; k < count && !alike; ++k)
+    figure.caption += (k == 0 ? ": " : "; ") + names[k] + ", " + setting_of(outcomes[k].run);
+  figure.caption += slips(first) ? fmt::format("; µ = {:.3g}", first.friction_coefficient)
+                                 : std::string("; no slip");
+  figure.caption += alike ? fmt::format("; {}.", fmt::join(names, ", ")) : ".";
   if (!single) {
     figure.title = "Contact regions and work over a cycle";
-    figure.columns = static_cast<int>(outcomes.size());
+    figure.columns = static_cast<int>(count);
   }
-  for (std::size_t k = 0; k < outcomes.size(); ++k)
+  for (std::size_t k = 0; k < count; ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
-  const auto way = [&](const OscillationOutcome& outcome) {
-    return single ? "" : names[static_cast<std::size_t>(&outcome - outcomes.data())] + ": ";
-  };
-  for (const OscillationOutcome& outcome : outcomes) {
-    const double work = outcome.work_per_cycle();
-    figure.panels.push_back(work_panel(
-        outcome,
-        std::abs(work) > outcome.uncertain_loss()
-            ? way(outcome) + "W = " + error_text(work, outcome.error_estimate(), Dimension::energy)
-            : way(outcome) + "no loss"));
+  for (std::size_t k = 0; k < count; ++k) {
+    std::string title = (single ? "" : names[k] + ": ") + loss_text(outcomes[k]);
+    if (k < assumptions.size())
+      if (const std::string text = validity_text(verdicts_of(assumptions.subspan(k, 1), false));
+          !text.empty())
+        title += " (" + text + ")";
+    figure.panels.push_back(work_panel(outcomes[k], title));
   }
-  for (const OscillationOutcome& outcome : outcomes)
-    if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
-  // One sentence for the maps, and one for the curves.
-  const std::size_t count = outcomes.size();
+  std::size_t loops = 0;
+  for (std::size_t k = 0; k < count; ++k)
+    if (outcomes[k].frictional) {
+      // Under a drag the body does not return, and the line is open.
+      const char* what =
+          std::holds_alternative<Drag>(outcomes[k].run.motion) ? "force over displacement" : "loop";
+      figure.panels.push_back(loop_panel(outcomes[k], (single ? "" : names[k] + ": ") + what));
+      ++loops;
+    }
+  // One sentence for the maps, and one for each kind of curves.
   const auto to = [&](std::size_t last) {
     return single ? "" : fmt::format("to ({}) ", char('a' + last));
   };
-  if (count == 0) return figure;
   figure.panels[0].caption =
       to(count - 1) + "Cells always in contact (black) or during a part of the cycle (grey).";
   figure.panels[count].caption = to(2 * count - 1) + "Work over a cycle.";
+  if (loops > 0)
+    figure.panels[2 * count].caption = to(2 * count + loops - 1) + "Force over displacement.";
   return figure;
 }
 

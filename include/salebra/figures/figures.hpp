@@ -205,9 +205,11 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
 /// contact during a part of the cycle) and the work over the time, at equal frequencies W(t) divided
 /// by the loss of Eq. (12), under a drag the energy released so far divided by the loss of Eq. (15),
 /// and without a loss W(t) divided by ½K_t u²; with friction also the loops of force over
-/// displacement. names: of the outcomes.
+/// displacement. names: of the outcomes. assumptions: of each outcome, for the headlines; empty:
+/// they say nothing on validity.
 Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
-                 const std::vector<std::string>& names);
+                 const std::vector<std::string>& names,
+                 std::span<const Assumptions> assumptions = {});
 
 /// The losses on a viscoelastic body and the parts of its complex modulus, over the quantity of which
 /// `values` has one for each loss.
