@@ -172,9 +172,12 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
 
 /// The motion of a figure in words, for its caption, without the quantity that varies.
 std::string setting_of(const DampingSolution& answer, std::string_view varied,
-                       std::optional<double> friction) {
+                       const AssumptionOptions& known) {
   const DampingResult& first = answer.results.front();
-  std::string text = " Motion: " + figures::motion_text(answer.motions.front(), varied);
+  const auto& friction = known.friction_coefficient;
+  std::string text =
+      " Motion: " + figures::motion_text(answer.motions.front(), varied,
+                                         known.excursion.value_or(ContactParameters::unknown));
   text += friction ? fmt::format(", µ = {:.3g}", *friction) : ", no slip";
   if (varied != "force" && varied != "pressure" && varied != "mean_gap" && varied != "indentation")
     text += ", F = " + format_quantity(first.force, Dimension::force, 4);
@@ -202,7 +205,7 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
   figures::Figure figure = figures::figure_of(cycle.path, loss);
   figures::state_validity(figure, answer.assumptions,
                           std::isfinite(answer.results.front().slip_work));
-  figure.caption += setting_of(answer, "", arguments.assumptions.friction_coefficient);
+  figure.caption += setting_of(answer, "", arguments.assumptions);
   session.plot(figure);
 }
 
@@ -265,7 +268,7 @@ void lose(const DampingArguments& arguments, Session& session) {
       figures::Figure figure = figures::figure_of(quantity, values, answer.results);
       figures::state_validity(figure, answer.assumptions,
                               std::isfinite(answer.results.front().slip_work));
-      figure.caption += setting_of(answer, quantity, arguments.assumptions.friction_coefficient);
+      figure.caption += setting_of(answer, quantity, arguments.assumptions);
       session.plot(figure);
     } else if (!arguments.maps.given())
       plot_case(arguments, answer, session);

@@ -37,10 +37,17 @@ double gap_of(const ExponentialFit& fit, double pressure) {
   return fit.decay_length * std::log(fit.reference_pressure / pressure);
 }
 
-ShadedRange window_of(const ExponentialFit& fit) {
-  return {.low = gap_of(fit, fit.window.pressure_max),
-          .high = gap_of(fit, fit.window.pressure_min),
-          .vertical = true};
+/// The window of the fit as a range of the gaps of its samples; by the law if the curve has no sample
+/// in it.
+ShadedRange window_of(const ForceCurve& curve, const ExponentialFit& fit) {
+  std::vector<double> gaps;
+  for (const ForceSample& sample : curve.samples)
+    if (sample.converged && fit.window.contains(sample.pressure, PressureWindow::round_off))
+      gaps.push_back(sample.mean_gap);
+  if (gaps.size() < 2)
+    gaps = {gap_of(fit, fit.window.pressure_max), gap_of(fit, fit.window.pressure_min)};
+  const auto [low, high] = std::ranges::minmax(gaps);
+  return {.low = low, .high = high, .vertical = true};
 }
 
 std::string decay_length_text(const ExponentialFit& fit) {
@@ -62,14 +69,17 @@ std::string verdict_of(const ForceCurve& curve, const ExponentialFit& fit) {
 }
 
 void add_fit(Panel& panel, const ForceCurve& curve, const ExponentialFit& fit) {
-  const double low = fit.window.pressure_min, high = fit.window.pressure_max;
   panel.title = decay_length_text(fit) + verdict_of(curve, fit);
+  const ShadedRange window = window_of(curve, fit);
+  const auto pressure = [&](double gap) {
+    return fit.reference_pressure * std::exp(-gap / fit.decay_length);
+  };
   panel.curves.push_back({.name = "p_0 e^{−ū/l}",
                           .quantity = "pressure",
-                          .x = {gap_of(fit, high), gap_of(fit, low)},
-                          .y = {high, low},
+                          .x = {window.low, window.high},
+                          .y = {pressure(window.low), pressure(window.high)},
                           .style = Style::dashed});
-  panel.ranges.push_back(window_of(fit));
+  panel.ranges.push_back(window);
   panel.ranges.back().name = "window of the fit";
 }
 
@@ -84,7 +94,6 @@ Panel local_panel(const LocalDecayLength& local, const std::optional<Exponential
     panel.y.prefix_of = fit->decay_length;
     panel.lines.push_back(
         {.at = fit->decay_length, .name = "l of the fit", .quantity = "decay_length"});
-    panel.ranges.push_back(window_of(*fit));
   }
   return panel;
 }
@@ -107,7 +116,7 @@ Panel deviation_panel(const ForceCurve& curve, const ExponentialFit& fit) {
           .y = {.label = "deviation from the fit (%)"},
           .curves = {points},
           .lines = {{.at = 0, .name = "the fit"}},
-          .ranges = {window_of(fit)}};
+          .ranges = {window_of(curve, fit)}};
 }
 
 }  // namespace
@@ -141,6 +150,7 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
   if (fit) {
     add_fit(law, curve, *fit);
     figure.panels.push_back(local_panel(local_decay_length(curve), fit));
+    figure.panels.back().ranges.push_back(window_of(curve, *fit));
     figure.panels.push_back(deviation_panel(curve, *fit));
   }
 

@@ -421,6 +421,8 @@ class PanelScript {
   void write_frame() {
     line("reset");
     line("set encoding utf8\nset minussign");
+    // gnuplot draws error bars with a white halo around their point, which would hide short bars.
+    line("set pointintervalbox 0.01");
     line("set border lw 0.8\nset tics out nomirror scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(title_));
     line("set key {} samplen 2.4 spacing 1.05 width 0.5", legend_);
