@@ -73,7 +73,7 @@ std::string design_text(const DesignProblem& problem, const Design& found) {
   const std::string deviation =
       std::isnan(found.deviation)
           ? "some means are not known"
-          : fmt::format("the largest deviation from the target is {:.0f} %", 100 * found.deviation);
+          : fmt::format("the largest deviation from the target is {:.1f} %", 100 * found.deviation);
   return fmt::format("{}: {}, allowed are {:.0f} %\n",
                      found.met ? "The target is met"
                                : "The target is not met, this is the nearest that was found",

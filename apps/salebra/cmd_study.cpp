@@ -331,11 +331,13 @@ std::string details(const StudyResult& result) {
 void require_sensitivities(const StudyArguments& arguments, const StudyConfiguration& configuration,
                            const Tolerances& tolerances) {
   for (const auto& [given, option] : {std::pair(arguments.dry_run.dry_run, "--dry-run"),
+                                      {arguments.resume, "--resume"},
+                                      {arguments.merge, "--merge"},
                                       {arguments.shard.has_value(), "--shard"},
                                       {arguments.shard_seconds.has_value(), "--shard-seconds"}})
     require_that(
         !given, "--sensitivity",
-        fmt::format("given together with {}, which prints no results; leave one out", option));
+        fmt::format("given together with {}, which may print no results; leave one out", option));
   require_that(!configuration.adhesion, "--sensitivity",
                "known for contacts without adhesion only; leave it or the adhesion out");
   for (const auto& [parameter, tolerance] : tolerances) {
@@ -477,8 +479,8 @@ void add_study_command(Program& program) {
       "processor time by stage");
   command.add_flag("--sensitivity", arguments->sensitivity,
                    "also compute how the results respond to the parameters and to each octave of "
-                   "wavelengths: d ln result/d ln parameter. Takes one to three times the study, "
-                   "and twenty times on layers and other bodies; "
+                   "wavelengths: d ln result/d ln parameter. Takes a few times as long as the "
+                   "study, and up to fifty times on layers and other bodies; "
                    "the answer has them, the file of --output has not");
   command
       .add_option("--tolerance", arguments->tolerances,

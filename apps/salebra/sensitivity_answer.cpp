@@ -93,6 +93,9 @@ Tolerances tolerances_of(const std::vector<std::string>& texts) {
     const double value =
         parse_quantity(text.substr(equals + 1), Dimension::dimensionless, "--tolerance");
     require(value > 0 && value < 1, "--tolerance", text, "must be between 0 and 100 %");
+    require(std::ranges::find(tolerances, *parameter, &Tolerances::value_type::first) ==
+                tolerances.end(),
+            "--tolerance", text, "is the second tolerance of this parameter; give one");
     tolerances.emplace_back(*parameter, value);
   }
   return tolerances;
@@ -100,6 +103,12 @@ Tolerances tolerances_of(const std::vector<std::string>& texts) {
 
 std::string add_tolerances(Json& json, const StudySensitivity& found,
                            const Tolerances& tolerances) {
+  std::string unknown;
+  for (const auto& [parameter, tolerance] : tolerances)
+    if (std::ranges::find(found.parameters, salebra::name_of(parameter),
+                          &ParameterSensitivity::parameter) == found.parameters.end())
+      unknown += fmt::format("  {} is left out above, so that no limit is known\n",
+                             salebra::name_of(parameter));
   std::vector<std::vector<std::string>> rows{{"result", "within"}};
   const std::size_t middle = found.pressures.size() / 2;
   for (const std::string& output : found.outputs()) {
@@ -117,7 +126,7 @@ std::string add_tolerances(Json& json, const StudySensitivity& found,
              "With these tolerances, at {}, to first order and without the errors of the "
              "sensitivities\n",
              format_quantity(found.pressures[middle], Dimension::pressure, 3)) +
-         to_table(rows, 2, true);
+         to_table(rows, 2, true) + unknown;
 }
 
 }  // namespace salebra::cli

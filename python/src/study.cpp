@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of study configurations, runs and results.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -430,6 +431,8 @@ progress : bool or callable
           "find",
           [](const StudySensitivity& self, const std::string& parameter,
              const std::string& output) {
+            require_that(parameter != "waves", "parameter",
+                         "waves are several bands; see `parameters`");
             const OutputSensitivity* found = self.find(parameter, output);
             require(found != nullptr, "parameter", parameter + ", " + output,
                     "have no sensitivity; see `parameters`");
@@ -440,6 +443,9 @@ progress : bool or callable
       .def(
           "sentence",
           [](const StudySensitivity& self, const std::string& output, std::size_t index) {
+            const std::vector<std::string> known = self.outputs();
+            require(std::ranges::find(known, output) != known.end(), "output", output,
+                    fmt::format("has no sensitivity; known are {}", fmt::join(known, ", ")));
             return self.sentence(output, index);
           },
           nb::arg("output"), nb::arg("index"),

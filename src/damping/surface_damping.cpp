@@ -872,6 +872,7 @@ std::vector<std::vector<SurfaceDamping>> detail::surface_damping(
   const Communicator& communicator = surface.communicator;
   collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curves, options);
+  require_positive(detail::normal_amplitude(motion), "normal_amplitude");
   const std::string fingerprint = body.fingerprint();
   for (const ForceCurve& curve : curves)
     require_that(curve.body == fingerprint, "curve",

@@ -36,29 +36,38 @@ bool is_loss(std::string_view output) {
   return output == "work_per_cycle" || output == "damping_constant";
 }
 
-void validate(const DesignProblem& problem) {
-  const DesignTarget& target = problem.target;
+void validate(const DesignTarget& target) {
   index_of(target.output);
   require(target.values.size() == 1 || target.values.size() == target.force.size(), "value",
           target.values.size(), "values given; give one, or one for each force");
-  for (const double value : target.values) require_positive(value, "value");
+  for (const double value : target.values) {
+    require_positive(value, "value");
+    require(target.output != "contact_area_fraction" || value <= 1, "value", value,
+            "is a fraction of the area, which must be <= 1");
+  }
   require(target.tolerance >= 0.01 && target.tolerance <= 1, "tolerance", target.tolerance,
           "must be between 1 % and 100 %");
-  require(target.force.size() >= 4, "force", target.force.size(),
-          "forces given; give the two ends of a range or at least 4 forces");
   for (std::size_t k = 0; k < target.force.size(); ++k) {
     require_positive(target.force[k], "force");
     require(k == 0 || target.force[k] > target.force[k - 1], "force", target.force[k],
-            "must increase");
+            "must be above the force before it");
   }
+  require(target.force.size() >= 4, "force", target.force.size(),
+          "forces given; give the two ends of a range or at least 4 forces");
+}
+
+void validate_study(const DesignProblem& problem) {
   const auto* recipe = std::get_if<GeneratedSurfaces>(&problem.study.surfaces);
   require_that(recipe && recipe->tables.empty(), "surface",
                "of a design is generated from a self-affine spectrum; give one in the study");
   require(recipe->seeds.size() >= 2, "seeds", recipe->seeds.size(),
           "given; a design needs at least 2 surfaces");
-  require(!problem.free.empty() && problem.free.size() <= target.force.size(), "free",
-          problem.free.size(),
-          fmt::format("parameters; give between 1 and as many as forces, {}", target.force.size()));
+}
+
+void validate_free(const DesignProblem& problem) {
+  const std::size_t forces = problem.target.force.size();
+  require(!problem.free.empty() && problem.free.size() <= forces, "free", problem.free.size(),
+          fmt::format("parameters; give between 1 and as many as forces, {}", forces));
   for (const FreeParameter& one : problem.free) {
     const std::string name(name_of(one.parameter));
     require_that(one.parameter != StudyParameter::pressure, name,
@@ -296,21 +305,26 @@ DesignProblem read_design_problem(const std::filesystem::path& file) {
     force = {force[0], force[0] * ratio, force[0] * ratio * ratio, force[1]};
   }
   target.require_no_other_keys();
+  target.located([&] { validate(problem.target); });
   auto free = root.required_table("free");
   for (const auto& [parameter, name] : EnumNames<StudyParameter>::values) {
-    if (!free.has(name)) continue;
+    if (parameter == StudyParameter::pressure && !free.has(name)) continue;
     const std::vector<double> limits = free.values(name, dimension_of(parameter));
+    if (limits.empty()) continue;
     free.check(limits.size() == 2, name, "must be a pair of limits, such as [0.6, 0.9]");
     problem.free.push_back({parameter, limits[0], limits[1]});
   }
   free.require_no_other_keys();
   root.require_no_other_keys();
-  root.located([&] { validate(problem); });
+  root.located([&] { validate_study(problem); });
+  free.located([&] { validate_free(problem); });
   return problem;
 }
 
 Design design(const DesignProblem& problem, const Progress& progress) {
-  validate(problem);
+  validate(problem.target);
+  validate_study(problem);
+  validate_free(problem);
   detail::quiet_gsl();
   Search search(problem, progress);
   Design found;

@@ -160,7 +160,8 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
   const auto converged = std::ranges::count_if(curve.samples, &ForceSample::converged);
   if (converged < 4)
     throw NotConverged(
-        fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance",
+        fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance, "
+                    "or take lower pressures if these are near full contact",
                     converged, curve.samples.size(), configuration.tolerance));
 }
 

@@ -434,6 +434,8 @@ double StudySensitivity::factor_of(const std::vector<std::pair<StudyParameter, d
 }
 
 std::string StudySensitivity::sentence(std::string_view output, std::size_t pressure) const {
+  require(pressure < pressures.size(), "index", pressure,
+          fmt::format("must be below {}, the number of pressures", pressures.size()));
   struct Share {
     double shortest, longest, size;
   };
