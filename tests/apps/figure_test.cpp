@@ -542,8 +542,8 @@ TEST_CASE("The map of sliding and the work of an oscillation are those of the an
     CHECK(work["curves"][0]["y"][k].get<double>() * cycle["small_amplitude_work"].get<double>() ==
           Approx(cycle["work"][k].get<double>()).epsilon(1e-12).margin(1e-20));
   CHECK_THAT(figure["caption"].get<std::string>(),
-             Contains("Motion: 6 µm tangential and 6 µm normal, 90° apart, no slip") &&
-                 Contains("free boundary"));
+             Contains("Motion: 6 µm tangential and 6 µm normal, 90° apart, mean") &&
+                 Contains("free boundary; no slip"));
 }
 
 TEST_CASE("A series of factors is along a logarithmic axis", "[plot]") {
