@@ -202,7 +202,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
       figure.caption +=
           ", u_z = " + format_quantity(problem.normal_amplitude.front(), Dimension::length, 4);
     figure.caption +=
-        fmt::format(", ω/2π = {}, F = {}.",
+        fmt::format(", ω/2π = {}, mean force F = {}.",
                     format_quantity(problem.angular_frequency / (2 * std::numbers::pi),
                                     Dimension::frequency, 4),
                     format_quantity(found.points.front().state.mean_force, Dimension::force, 4));

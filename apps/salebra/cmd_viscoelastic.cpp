@@ -124,7 +124,9 @@ void run(ViscoelasticArguments arguments, Session& session) {
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
-    figure.caption += motion_of_caption(arguments);
+    figure.caption += fmt::format(" Indenter: {}, δ = {}.", arguments.indenter.law,
+                                  format_quantity(indentation, Dimension::length, 4)) +
+                      motion_of_caption(arguments);
     session.plot(figure);
   }
   assumptions.answer(session, answer);

@@ -7,17 +7,21 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cmath>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/results/assumption_verdicts.hpp>
 
 #include "bindings.hpp"
+#include "damping/joint_loop.hpp"
 #include "damping/max_motion.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"
 #include "interop/described.hpp"
+#include "interop/drawn.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -160,10 +164,43 @@ void bind_regime_map(nb::module_& m) {
       "these velocities (m/s) and excursions (m) under a normal oscillation.");
 }
 
+/// Friction and losses over velocities about that of the state, which is marked.
+figures::Figure sliding_figure(const ContactLaw& law, const OperatingPoint& point,
+                               const Drag& motion, double friction_coefficient,
+                               const SteadySliding& state) {
+  constexpr int count = 61;
+  const auto [low, high] = std::minmax(motion.drag_velocity, state.critical_velocity);
+  const double from = low / 10, ratio = 30 * high / low;
+  std::vector<double> velocities;
+  for (int k = 0; k < count; ++k) velocities.push_back(from * std::pow(ratio, k / (count - 1.0)));
+  const std::vector<SteadySliding> states = steady_sliding(
+      law, point, NormalOscillation{motion.normal_amplitude, motion.angular_frequency}, velocities,
+      friction_coefficient);
+  std::vector<SlidingPoint> points;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    points.push_back({.normal_amplitude = motion.normal_amplitude,
+                      .velocity = velocities[k],
+                      .state = states[k]});
+  figures::Figure figure = figures::figure_of(points, friction_coefficient);
+  const auto mark = [&](std::size_t panel, double value) {
+    figure.panels[panel].curves.push_back({.name = "the result",
+                                           .x = {motion.drag_velocity},
+                                           .y = {value},
+                                           .style = figures::Style::points,
+                                           .color = 6});
+  };
+  mark(0, state.friction_coefficient);
+  mark(1, state.relaxation_work + state.slip_work);
+  figure.caption += setting_text(figures::motion_text(motion, "excursion"), friction_coefficient,
+                                 state.mean_force);
+  return figure;
+}
+
 void bind_steady_sliding(nb::module_& m) {
   described_class<SteadySliding>(m, "SteadySliding",
                                  "A contact that slides steadily while it oscillates in the normal "
-                                 "direction; unknown numbers are NaN.");
+                                 "direction; unknown numbers are NaN.",
+                                 nb::dynamic_attr());
   m.def(
       "steady_sliding",
       [](const ContactLaw& law, const Drag& motion, double friction_coefficient,
@@ -174,7 +211,11 @@ void bind_steady_sliding(nb::module_& m) {
             unlocked([&] { return steady_sliding(law, point, motion, friction_coefficient); });
         if (hold_of(law, point, motion.normal_amplitude) == Hold::indentation)
           warn_of_held_indentation(law, sliding.indentation, sliding.mean_force);
-        return sliding;
+        return with_figure(sliding, [kept = nb::find(law), point, motion,
+                                     friction_coefficient](const SteadySliding& state) {
+          return sliding_figure(nb::cast<const ContactLaw&>(kept), point, motion,
+                                friction_coefficient, state);
+        });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
@@ -182,10 +223,28 @@ void bind_steady_sliding(nb::module_& m) {
       "under a normal oscillation; indentation (m) or force (N), one of the two.");
 }
 
+/// The loop with its backbone. The program's figure has the loss over the force too, which is one
+/// point here.
+figures::Figure joint_figure(const ContactLaw& law, const JointMotion& motion,
+                             double friction_coefficient, int steps, const JointLoss& loss) {
+  // An even number of steps contains the maximum and the minimum of a harmonic motion.
+  const detail::JointLoop loop = detail::joint_loop(law, loss.indentation, motion,
+                                                    friction_coefficient, steps + steps % 2, {});
+  const double force = std::isnan(loss.mean_force) ? law.force(loss.indentation) : loss.mean_force;
+  figures::Figure figure = figures::figure_of(std::vector{loss}, loop.displacement,
+                                              loop.tangential_force, force, friction_coefficient);
+  figure.panels.erase(figure.panels.begin());
+  figure.panels.front().title.erase(0, std::string_view("largest motion, ").size());
+  figure.panels.front().caption = "Loop of displacement and force with its backbone.";
+  figure.columns = 1;
+  return figure;
+}
+
 void bind_joint(nb::module_& m) {
   described_class<JointLoss>(m, "JointLoss",
                              "Loss and stiffness of a joint under a tangential oscillation; "
-                             "unknown numbers are NaN.");
+                             "unknown numbers are NaN.",
+                             nb::dynamic_attr());
   m.def(
       "joint_loss",
       [](const ContactLaw& law, double friction_coefficient,
@@ -208,7 +267,11 @@ void bind_joint(nb::module_& m) {
         if (normal_amplitude != 0 && loss.hold == Hold::indentation)
           warn_of_held_indentation(law, loss.indentation, loss.mean_force);
         if (angular_frequency > 0) loss.set_damping_constant(angular_frequency);
-        return loss;
+        return with_figure(loss, [kept = nb::find(law), motion, normal_amplitude, phase,
+                                  friction_coefficient, steps](const JointLoss& drawn) {
+          return joint_figure(nb::cast<const ContactLaw&>(kept), {motion, normal_amplitude, phase},
+                              friction_coefficient, steps, drawn);
+        });
       },
       nb::arg("law"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("tangential_amplitude") = nb::none(), nb::arg("tangential_force") = nb::none(),

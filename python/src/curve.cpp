@@ -18,6 +18,7 @@
 #include "interop/contact.hpp"
 #include "interop/described.hpp"
 #include "interop/direction.hpp"
+#include "interop/drawn.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -171,12 +172,30 @@ void bind_fit(nb::module_& m) {
   described_class<ExponentialFit>(
       m, "ExponentialFit",
       "p = reference_pressure·exp(−ū/decay_length). The 95 % limits assume independent noise; the "
-      "residuals of a computed curve are misfit of the law instead.");
+      "residuals of a computed curve are misfit of the law instead.",
+      nb::dynamic_attr());
   m.def(
       "fit_exponential",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
          const Choice<FitWeights>& weights) {
-        return fit_exponential(curve, window_of(window), weights.value("weights"));
+        const FitWeights chosen = weights.value("weights");
+        ExponentialFit fit = fit_exponential(curve, window_of(window), chosen);
+        return with_figure(std::move(fit), [curve, chosen](ExponentialFit drawn) {
+          if (chosen != FitWeights::spacing) {
+            figures::Figure figure = figures::figure_of(curve, drawn);
+            figure.caption += " The interval of the decay length has a confidence of 95 %.";
+            return figure;
+          }
+          // The curve has no noise, so that the range of l is that of parts of the window.
+          const WindowSensitivity parts = window_sensitivity(curve, drawn.window, chosen);
+          drawn.decay_length_low = parts.decay_length_min;
+          drawn.decay_length_high = parts.decay_length_max;
+          figures::Figure figure = figures::figure_of(curve, drawn);
+          figure.caption +=
+              " The range of the decay length is that of fits to parts of the window, not the 95 % "
+              "limits of the fit.";
+          return figure;
+        });
       },
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       R"(Weighted least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits for independent noise.

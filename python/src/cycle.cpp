@@ -24,6 +24,7 @@
 #include "interop/contact_sets.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
+#include "interop/drawn.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -119,19 +120,20 @@ boundary_element_contact_sets : the contact sets of a surface.
 }
 
 void bind_result(nb::module_& m) {
-  auto result =
-      described_class<CycleResult>(m, "CycleResult", "A simulated period; columns are views.");
+  auto result = described_class<CycleResult>(
+      m, "CycleResult", "A simulated period; columns are views.", nb::dynamic_attr());
   result_methods(result);
 }
 
 // Runs simulate(options, progress), and writes and reads the checkpoint if there is one.
 template <class Simulate>
-CycleResult simulation(CycleOptions options, const std::optional<std::filesystem::path>& checkpoint,
-                       double checkpoint_every, bool resume, CycleSettings settings,
-                       const ProgressArgument& progress, const Simulate& simulate) {
+nb::typed<nb::object, CycleResult> simulation(
+    CycleOptions options, const Oscillation& motion,
+    const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every, bool resume,
+    CycleSettings settings, const ProgressArgument& progress, const Simulate& simulate) {
   require_that(checkpoint || !resume, "resume",
                "given without a checkpoint; name the file of the run to continue");
-  return interruptible(progress, [&](Progress told) {
+  CycleResult simulated = interruptible(progress, [&](Progress told) {
     options.on_progress = told;
     CycleRecorder recorder({.checkpoint = checkpoint.value_or(std::filesystem::path()),
                             .checkpoint_every = checkpoint_every,
@@ -141,6 +143,16 @@ CycleResult simulation(CycleOptions options, const std::optional<std::filesystem
         recorder.run(options, [&](const CycleOptions& chosen) { return simulate(chosen, told); });
     if (result.termination != Termination::interrupted) recorder.done();
     return result;
+  });
+  const double friction = options.friction_coefficient;
+  return with_figure(std::move(simulated), [motion, friction](const CycleResult& result) {
+    figures::Figure figure = figures::figure_of(result);
+    double force = 0;
+    for (const CycleSample& sample : result.samples)
+      force += sample.normal_force / double(result.samples.size());
+    figure.caption = "The last period of a simulated oscillation." +
+                     setting_text(figures::motion_text(motion_of(motion)), friction, force);
+    return figure;
   });
 }
 
@@ -166,8 +178,9 @@ void bind_simulations(nb::module_& m) {
         CycleSettings settings = cycle_settings(contact_sets.grid, material.pressed(),
                                                 oscillation(motion), mean_indentation, options);
         settings.emplace_back("contact_sets", contact_sets.identity);
-        return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
-                          progress, [&](const CycleOptions& chosen, const Progress&) {
+        return simulation(options, oscillation(motion), checkpoint, checkpoint_every, resume,
+                          std::move(settings), progress,
+                          [&](const CycleOptions& chosen, const Progress&) {
                             return simulate_cycle(contact_sets.contact_sets, contact_sets.grid,
                                                   material.pressed(),
                                                   trajectory(motion, mean_indentation), chosen);
@@ -245,8 +258,8 @@ InvalidInput
                                                   mean_indentation, options);
           if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
           return simulation(
-              options, checkpoint, checkpoint_every, resume, std::move(settings), progress,
-              [&](const CycleOptions& chosen, const Progress& told) {
+              options, oscillation(motion), checkpoint, checkpoint_every, resume,
+              std::move(settings), progress, [&](const CycleOptions& chosen, const Progress& told) {
                 const NormalContactOptions normal{.boundary = chosen.stick.boundary,
                                                   .on_progress = told};
                 const Trajectory path = trajectory(motion, mean_indentation);

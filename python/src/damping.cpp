@@ -21,6 +21,7 @@
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
+#include "interop/drawn.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 #include "results/describe.hpp"
@@ -183,12 +184,13 @@ void bind_damping_curve(nb::module_& m) {
       bound,
       [](const BoundDampingCurve& self) {
         judge_all(self.results);
-        CurveOf<JudgedDamping> curve{self.coordinate, self.values, {}};
+        CurveOf<JudgedDamping> curve{self.coordinate, self.values, {}, {}, self.setting};
         for (const BoundDamping& one : self.results) curve.results.push_back(one.judged());
         return curve;
       },
       [](BoundDampingCurve* self, CurveOf<JudgedDamping>&& curve) {
-        new (self) BoundDampingCurve{std::move(curve.coordinate), std::move(curve.values), {}};
+        new (self) BoundDampingCurve{
+            std::move(curve.coordinate), std::move(curve.values), {}, {}, std::move(curve.setting)};
         for (JudgedDamping& one : curve.results)
           self->results.push_back({one, std::move(one.assumptions), {}});
       });
@@ -302,6 +304,13 @@ InvalidInput
         if (!dropped.empty()) warn_user(dropped);
         warn_of_held_indentation(results);
         BoundDampingCurve curve_of = over(cases, force.has_value());
+        const bool loads = std::ranges::any_of(
+            results, [&](const DampingResult& one) { return one.force != results.front().force; });
+        const double friction = known(parameters).friction_coefficient;
+        curve_of.setting =
+            setting_text(figures::motion_text(described.front(), curve_of.coordinate),
+                         std::isnan(friction) ? std::numeric_limits<double>::infinity() : friction,
+                         loads ? ContactParameters::unknown : results.front().force);
         for (std::size_t i = 0; i < count; ++i)
           curve_of.results.push_back(
               assumptions ? to_be_judged(results[i], law, described[i], parameters, curve)

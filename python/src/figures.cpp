@@ -10,7 +10,9 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/slider.hpp>
+#include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>
@@ -61,9 +63,20 @@ Figure drawn(const ConvertedPsd& spectrum) {
 
 Figure drawn(const SurfacePicture& picture) { return figure_of(picture, std::vector<double>()); }
 
+/// Results that do not have their loop: from a pickle, or of a simulation of cells.
+[[noreturn]] Figure without_contact(const char* name) {
+  throw InvalidInput(name,
+                     "does not know the contact law that its figure needs, which pickles and "
+                     "simulations of cells do not keep; compute it of a law");
+}
+Figure drawn(const JointLoss&) { return without_contact("JointLoss"); }
+Figure drawn(const SteadySliding&) { return without_contact("SteadySliding"); }
+
 Figure drawn(const BoundDampingCurve& curve) {
-  return figure_of(curve.coordinate, curve.values,
-                   std::vector<DampingResult>(curve.results.begin(), curve.results.end()));
+  Figure figure = figure_of(curve.coordinate, curve.values,
+                            std::vector<DampingResult>(curve.results.begin(), curve.results.end()));
+  figure.caption += curve.setting;
+  return figure;
 }
 
 Figure drawn(const CurveOf<DampingPoint>& curve) { return figure_of(curve.results); }
@@ -200,10 +213,11 @@ void bind_figures(nb::module_& parent) {
                 CorrelationMap, Correlation, ScaleDependence, HeightHistogram, BearingCurve,
                 Profile, MonteCarloCurve, AsperityDamping, SampledMotion, TrajectoryDamping,
                 ViscoelasticDamping, ViscoelasticIndentation, ViscoelasticPath, ContactSetAt,
-                CycleResult, SliderMotion, StressMap, FrictionMap, RegimeMap, DamperMap,
-                SurfacePicture, ModelResult, Realisation, StudyResult, StudySolution,
-                StudySensitivity, BoundDampingCurve, CurveOf<DampingPoint>, CurveOf<EnsembleMean>,
-                CurveOf<StatedMean>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
+                CycleResult, JointLoss, SteadySliding, SliderMotion, StressMap, FrictionMap,
+                RegimeMap, DamperMap, SurfacePicture, ModelResult, Realisation, StudyResult,
+                StudySolution, StudySensitivity, BoundDampingCurve, CurveOf<DampingPoint>,
+                CurveOf<EnsembleMean>, CurveOf<StatedMean>, CurveOf<SpotStatistics>,
+                CurveOf<FlowFactors>>();
   bind_laws();
 }
 

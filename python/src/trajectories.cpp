@@ -16,6 +16,7 @@
 #include "interop/arrays.hpp"
 #include "interop/citations.hpp"
 #include "interop/described.hpp"
+#include "interop/drawn.hpp"
 #include "interop/running.hpp"
 
 namespace salebra::python {
@@ -169,9 +170,18 @@ springs : LawSprings
           nb::arg("state"), "Restores a `state` of an element with the same springs.");
 }
 
+double mean_force_of(const ContactLaw& law, const SampledMotion& path) {
+  double impulse = 0;
+  for (std::size_t k = 1; k < path.time.size(); ++k)
+    impulse += (law.force(path.indentation[k]) + law.force(path.indentation[k - 1])) / 2 *
+               (path.time[k] - path.time[k - 1]);
+  return impulse / path.period();
+}
+
 void bind_damping_of_trajectory(nb::module_& m) {
   described_class<TrajectoryDamping>(m, "TrajectoryDamping",
-                                     "Steady state of a contact under a periodic motion.");
+                                     "Steady state of a contact under a periodic motion.",
+                                     nb::dynamic_attr());
   m.def(
       "trajectory_damping",
       [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,
@@ -180,9 +190,17 @@ void bind_damping_of_trajectory(nb::module_& m) {
         require(!transverse || friction_coefficient == infinity, "friction_coefficient",
                 friction_coefficient,
                 "cannot be combined with transverse, whose slip is not followed; leave one out");
-        return unlocked([&] {
+        TrajectoryDamping loss = unlocked([&] {
           return transverse ? trajectory_damping(law, trajectory, transverse->values)
                             : trajectory_damping(law, trajectory, {friction_coefficient});
+        });
+        const double mean_force = mean_force_of(law, trajectory);
+        return with_figure(std::move(loss), [trajectory, friction_coefficient,
+                                             mean_force](const TrajectoryDamping& drawn) {
+          figures::Figure figure = figures::figure_of(trajectory, drawn);
+          figure.caption +=
+              setting_text(motion_text_of(trajectory), friction_coefficient, mean_force);
+          return figure;
         });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),

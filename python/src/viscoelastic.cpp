@@ -7,6 +7,11 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
@@ -17,6 +22,7 @@
 #include "interop/contact.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
+#include "interop/drawn.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -83,15 +89,32 @@ terms : list of (float, float)
 void bind_indentation(nb::module_& m) {
   described_class<ViscoelasticIndentation>(
       m, "ViscoelasticIndentation",
-      "Force of an indenter on a viscoelastic body along a path, and its springs at the end.");
+      "Force of an indenter on a viscoelastic body along a path, and its springs at the end.",
+      nb::dynamic_attr());
   m.def(
       "viscoelastic_indentation",
       [](const IndenterLaw& law, const PronySeries& prony, const Values& time,
          const Values& indentation, int springs) {
         cite({"popov_hess2015"});
-        return unlocked([&] {
+        ViscoelasticIndentation contact = unlocked([&] {
           return viscoelastic_indentation(law, prony, time.values, indentation.values, springs);
         });
+        return with_figure(
+            std::move(contact), [time = time.values, indentation = indentation.values](
+                                    const ViscoelasticIndentation& drawn) {
+              const double highest = *std::ranges::max_element(drawn.force);
+              figures::Figure figure = figures::curve_figure("indentation", "force",
+                                                             {.x = indentation, .y = drawn.force});
+              figure.panels.push_back(
+                  figures::curve_figure("time", "force", {.x = time, .y = drawn.force}).panels[0]);
+              figure.kind = "viscoelastic_indentation";
+              figure.columns = 2;
+              figure.panels[0].title = "largest force F = " + figures::value_text(highest, "N");
+              figure.caption =
+                  "An indenter on a viscoelastic body along a path: its force over (a) the "
+                  "indentation and (b) the time.";
+              return figure;
+            });
       },
       nb::arg("law"), nb::arg("prony"), nb::arg("time"), nb::arg("indentation"), nb::kw_only(),
       nb::arg("springs") = 400,
@@ -111,15 +134,57 @@ springs : int
 )");
 }
 
+/// The losses over the frequency at which the body follows the path, and its loop of normal force
+/// and indentation.
+figures::Figure damping_figure(const IndenterLaw& law, const PronySeries& prony,
+                               const SampledMotion& path, int springs,
+                               const ViscoelasticDamping& loss) {
+  constexpr int below = 5;  // frequencies in two decades below that of the path, and as many above
+  const double elastic = trajectory_damping(law, path).work_per_cycle;
+  const double own = 2 * std::numbers::pi / path.period();
+  std::vector<double> frequencies;
+  std::vector<ViscoelasticLoss> losses;
+  for (int k = -below; k <= below; ++k) {
+    const double factor = std::pow(10, 2.0 * k / below);
+    SampledMotion scaled = path;
+    for (double& time : scaled.time) time /= factor;
+    const std::complex<double> modulus = prony.complex_modulus(factor * own);
+    frequencies.push_back(factor * own);
+    losses.push_back({factor * own, modulus.real(), modulus.imag(), elastic,
+                      k == 0 ? loss : viscoelastic_damping(law, prony, scaled, springs)});
+  }
+  figures::Figure figure = figures::figure_of("angular_frequency", frequencies, losses);
+  figure.panels[0].title = "W = " + figures::value_text(loss.work_per_cycle, "J") +
+                           ", γ = " + figures::value_text(loss.damping_constant, "N s/m");
+  figure.panels[0].lines.push_back({.at = own, .vertical = true, .name = "this path"});
+  figures::Panel loop =
+      figures::curve_figure("indentation", "force", {.x = path.indentation, .y = loss.force})
+          .panels[0];
+  loop.title = "normal loss " + figures::value_text(loss.normal_material_work, "J");
+  loop.caption = "Loop of the normal force, whose area is lost in the material.";
+  figure.panels.push_back(std::move(loop));
+  figure.columns = 3;
+  figure.caption += " Motion: " + motion_text_of(path) +
+                    ", F = " + format_quantity(loss.mean_force, Dimension::force, 4) + ".";
+  return figure;
+}
+
 void bind_damping_of_period(nb::module_& m) {
   described_class<ViscoelasticDamping>(m, "ViscoelasticDamping",
-                                       "Losses of a sticking viscoelastic contact in a period.");
+                                       "Losses of a sticking viscoelastic contact in a period.",
+                                       nb::dynamic_attr());
   m.def(
       "viscoelastic_damping",
       [](const IndenterLaw& law, const PronySeries& prony, const SampledMotion& trajectory,
          int springs) {
         cite({"popov2015", "popov_hess2015"});
-        return unlocked([&] { return viscoelastic_damping(law, prony, trajectory, springs); });
+        ViscoelasticDamping loss =
+            unlocked([&] { return viscoelastic_damping(law, prony, trajectory, springs); });
+        return with_figure(std::move(loss), [kept = nb::find(law), prony, trajectory,
+                                             springs](const ViscoelasticDamping& drawn) {
+          return damping_figure(nb::cast<const IndenterLaw&>(kept), prony, trajectory, springs,
+                                drawn);
+        });
       },
       nb::arg("law"), nb::arg("prony"), nb::arg("trajectory"), nb::kw_only(),
       nb::arg("springs") = 200,

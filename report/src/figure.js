@@ -35,7 +35,7 @@ const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, siz
 /**
  * spec  {id, title, caption, alt, height?, columns, axes: {x: {label, unit, log, fixed?}, y: …}, controls?, square?, plot(tools)}
  *       axes      label: without unit; log: initial scale; fixed: no switch; values: returns the values that determine the SI prefix
- *       plot      returns {series, shapes?, annotations?, layout?}; a series is a plotly trace in SI units with {label, group?}
+ *       plot      returns {series, shapes?, layout?}; a series is a plotly trace in SI units with {label, group?}
  *       controls  elements before the switches; they call figure.redraw()
  */
 function addFigure(parent, spec) {
@@ -81,7 +81,10 @@ function addFigure(parent, spec) {
 
 /** Downloads the picture as shown, as SVG for a paper or a slide. */
 async function pictureOf(id, plot) {
-  const address = await Plotly.toImage(plot, {format: "svg", width: plot.clientWidth, height: plot.clientHeight});
+  // The legend of the page is not part of the plot.
+  const named = plot.data.filter(({showlegend}) => showlegend).length > 1;
+  const layout = {...plot.layout, showlegend: named, legend: {orientation: "h", y: -0.2}};
+  const address = await Plotly.toImage({data: plot.data, layout}, {format: "svg", width: plot.clientWidth, height: plot.clientHeight + (named ? 60 : 0)});
   download(`${id}.svg`, "image/svg+xml", decodeURIComponent(address.slice(address.indexOf(",") + 1)));
   document.getElementById("live").textContent = `${id}.svg is downloaded`;
 }
@@ -125,30 +128,24 @@ function draw(spec, state, plot, legend, figure) {
     layout[`${name}axis`] = axisLayout(axis, state[name], scales[name], axis.log === undefined ? [] : all(name));
   }
   const traces = content.series.map((series) => {
-    const {label, group, ...trace} = series;
+    const {label, group, quiet, ...trace} = series;
     const hidden = state.hidden.has(group ?? label);
     for (const letter of ["x", "y"]) if (trace[`error_${letter}`]) trace[`error_${letter}`] = scaledBars(trace[`error_${letter}`], scales[letter].factor);
     return {
-      ...trace, name: plotText(label ?? ""), visible: !hidden, x: scaled(Array.from(trace.x), scales.x.factor),
+      ...trace, name: plotText(label ?? ""), showlegend: Boolean(label) && !quiet, visible: !hidden, x: scaled(Array.from(trace.x), scales.x.factor),
       y: scaled(Array.from(trace.y), scales.y.factor), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),
     };
   });
-  // Shapes and annotations are in SI units too. On a logarithmic axis, plotly expects logarithms for annotations but not for shapes.
-  const place = (item, logarithms) => {
-    const moved = {...item};
+  // Shapes are in SI units too.
+  const place = (shape) => {
+    const moved = {...shape};
     for (const letter of ["x", "y"]) {
-      const reference = item[`${letter}ref`] ?? letter;
-      if (!(reference in scales)) continue;
-      for (const end of [letter, `${letter}0`, `${letter}1`]) {
-        if (moved[end] === undefined) continue;
-        moved[end] *= scales[reference].factor;
-        if (logarithms && state[reference] === "log") moved[end] = Math.log10(moved[end]);
-      }
+      if (shape[`${letter}ref`]) continue;
+      for (const end of [`${letter}0`, `${letter}1`]) if (moved[end] !== undefined) moved[end] *= scales[letter].factor;
     }
     return moved;
   };
-  layout.shapes = (content.shapes ?? []).map((shape) => place(shape, false));
-  layout.annotations = (content.annotations ?? []).map((note) => place(note, true));
+  layout.shapes = (content.shapes ?? []).map(place);
   Object.assign(layout, content.layout?.(scales) ?? {});
   Plotly.react(plot, traces, layout, {responsive: true, displaylogo: false, displayModeBar: matchMedia("(pointer: coarse)").matches ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: {filename: spec.id, scale: 2}});
@@ -233,6 +230,7 @@ function estimateColumns(label, key, unit, estimate) {
 
 const CURVE_STYLES = [["blue", "circle"], ["vermilion", "square"], ["green", "diamond"], ["purple", "triangle-up"], ["ochre", "cross"], ["slate", "x"], ["ink", "circle-open"], ["muted", "circle-open"], ["vermilion", "star"]];
 const CURVE_DASHES = {dashed: "dash", dotted: "dot"};
+const LINE_DASHES = ["longdash", "longdashdot", "dashdot", "dot"];
 const PALETTES = {sequential: "Viridis", diverging: "RdBu", grey: "Greys"};
 
 /** The text of a figure of the library in the markup of the page: a_b and a_{b} become a_{b}, a backslash makes the next character plain, and symbols are slanted. */
@@ -267,6 +265,8 @@ function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
   const keyOf = (curve) => (twice ? `${plainText(nameOf(curve)).replace(/[^A-Za-z0-9]+/g, "_")}_${key(curve)}` : key(curve)), unit = y.unit || "1";
   const text = (curve) => curve.x.map((v, k) => plotText(`${nameOf(curve)}: ${quantity(curve.y[k], unit, 4)}`) + (known(curve.low[k]) ? `<br>${interval({low: curve.low[k], high: curve.high[k]}, unit)}` : "")
     + [[x, v], [second_x, v], [second_y, curve.y[k]]].filter(([axis]) => axis).map(([axis, value]) => `<br>${plotText(worded(axis, value * (axis.factor ?? 1)))}`).join(""));
+  const lineLook = (i) => ({color: color("ink"), width: 1, dash: LINE_DASHES[i % LINE_DASHES.length]}), rangeColor = () => faint("vermilion", 0.1);
+  const entry = (name, look) => ({label: libraryText(name), x: [null], y: [null], type: "scatter", hoverinfo: "skip", ...look}), shown = (state) => ({name}) => !state.hidden.has(libraryText(name));
   const positive = (letter) => curves.every((curve) => curve[letter].every((v) => !known(v) || v > 0));
   const span = (curve) => { const there = curve.y.filter(known); return `${plainText(nameOf(curve))} from ${quantity(there[0], unit, 3)} to ${quantity(there.at(-1), unit, 3)}`; };
   return {
@@ -274,16 +274,15 @@ function curvesOf({x, y, second_x, second_y, curves: all, lines, ranges}) {
     alt: () => `${plainText(libraryText(y.label))} over ${plainText(libraryText(x.label))}: ${curves.filter((curve) => curve.y.some(known)).map(span).join("; ")}${lines.map((line) => `; ${plainText(libraryText(line.name))} at ${quantity(line.at, (line.vertical ? x : y).unit || "1", 3)}`).join("")}.`,
     columns: () => (common ? [{label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves[0].x}, ...curves.flatMap((curve) => estimateColumns(nameOf(curve), keyOf(curve), unit, {mean: curve.y, low: curve.low, high: curve.high}))]
       : [{label: "curve", key: "curve", unit: "1", values: curves.flatMap((curve, i) => curve.x.map(() => i + 1))}, {label: libraryText(x.label), key: x.quantity || "x", unit: x.unit || "1", values: curves.flatMap((curve) => curve.x)}, {label: libraryText(y.label), key: y.quantity || "y", unit, values: curves.flatMap((curve) => curve.y)}]),
-    plot: () => ({
-      series: curves.flatMap((curve, i) => {
+    plot: ({state}) => ({
+      // The legend names lines and ranges: beside them, names would hide data.
+      series: [...curves.flatMap((curve, i) => {
         const drawn = band(nameOf(curve), curve.x, {mean: curve.y, ...(curve.style === "points" ? {} : {low: curve.low, high: curve.high})}, style(curve, i), {text: text(curve), markers: /points/.test(curve.style)});
         if (curve.style === "points") Object.assign(drawn.at(-1), {mode: "markers", error_y: {type: "data", symmetric: false, array: curve.y.map((v, k) => (known(curve.high[k]) ? curve.high[k] - v : 0)), arrayminus: curve.y.map((v, k) => (known(curve.low[k]) ? v - curve.low[k] : 0)), color: color(style(curve, i).color), thickness: 1.5}});
         return drawn;
-      }),
-      shapes: [...ranges.map(({low, high, vertical}) => ({type: "rect", ...(vertical ? {x0: low, x1: high, y0: 0, y1: 1, yref: "paper"} : {y0: low, y1: high, x0: 0, x1: 1, xref: "paper"}), fillcolor: faint("vermilion", 0.1), line: {width: 0}, layer: "below"})),
-        ...lines.map(({at, vertical}) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: {color: color("muted"), width: 1.5, dash: "dash"}}))],
-      annotations: [...lines, ...ranges].filter(({name}) => name).map(({at, low, high, vertical, name}) => ({text: plotText(libraryText(name)), showarrow: false, font: {color: color("muted"), size: 12}, bgcolor: faint("raised", 0.8),
-        ...(vertical ? {x: at ?? low, y: 1, yref: "paper", yanchor: "top", xanchor: (at ?? low) > (x.logarithmic ? Math.sqrt(x.low * x.high) : (x.low + x.high) / 2) ? "right" : "left"} : {x: 1, xref: "paper", xanchor: "right", y: at ?? high, yanchor: "bottom"})})),
+      }), ...lines.map(({name}, i) => entry(name, {mode: "lines", line: lineLook(i)})), ...ranges.map(({name}) => entry(name, {mode: "none", fill: "toself", fillcolor: rangeColor()}))],
+      shapes: [...ranges.filter(shown(state)).map(({low, high, vertical}) => ({type: "rect", ...(vertical ? {x0: low, x1: high, y0: 0, y1: 1, yref: "paper"} : {y0: low, y1: high, x0: 0, x1: 1, xref: "paper"}), fillcolor: rangeColor(), line: {width: 0}, layer: "below"})),
+        ...lines.map((line, i) => [line, i]).filter(([line]) => shown(state)(line)).map(([{at, vertical}, i]) => ({type: "line", ...(vertical ? {x0: at, x1: at, y0: 0, y1: 1, yref: "paper"} : {y0: at, y1: at, x0: 0, x1: 1, xref: "paper"}), line: lineLook(i)}))],
     }),
   };
 }

@@ -21,7 +21,7 @@ const finding = (title, value, details, doubt) => h("div", {class: doubt ? "find
 
 /** Verdict, regime, force law, and the damping constant at the chosen load. */
 function cards(point) {
-  const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
+  const fit = point.fit?.models?.bem, doubt = point.validity && point.validity !== "valid", found = [];
   if (point.validity) found.push(finding("Validity", point.validity, ["assumptions below, worst first"], doubt));
   const {max_force: most, contact_time: closed} = point.damping ?? {}, at = shownLoad(point);
   if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the chosen load", known(most?.[at]) && `largest force ${quantity(most[at], "N", 3)}`, known(closed?.[at]) && closed[at] < 1 && `in contact during ${number(100 * closed[at], 3)}${NARROW}% of the cycle`], point.solution.regime[shownLoad(point)] === "sliding"));
@@ -34,16 +34,21 @@ function cards(point) {
   }
   const adhesion = point.adhesion, pull = adhesion?.pull_off_pressure, work = adhesion?.adhesion_work_per_cycle;
   if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(adhesion.pull_off_error?.mean) && `up to ${quantity(adhesion.pull_off_error.mean, "Pa", 2)} more (error of its steps)`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)} ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} (error of its steps)`]));
-  if (!damping) return found;
-  const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
-  const shown = slip ? point.solution.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
-  const limits = interval({low: shown?.low?.[i], high: shown?.high?.[i]}, "N s/m");
-  const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-  found.push(finding(slip ? "Damping constant" : "Damping constant without slip", known(value) ? quantity(value, "N s/m", error > 0.1 ? 2 : 3) : "n/a",
-    [slip && known(point.solution.slip_share[i]) ? `${number(100 * point.solution.slip_share[i], 2)}${NARROW}% of the loss by slip` : "", limits && `95 %: ${limits}`, known(error) ? `numerical error ${errorPercent(error)}` : "",
-      `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`,
-      known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}${slip ? ` against ${quantity(curve.mean[i], "N s/m", 3)} without slip` : ""}` : ""], doubt));
+  for (const one of [point, ...(point.other_directions ?? [])]) if (one.damping) found.push(dampingCard(point, one));
   return found;
+}
+
+/** The damping constant at the chosen load. one: the point, or what it has of a motion in another direction. */
+function dampingCard(point, one) {
+  const {damping, solution} = one, doubt = one.validity && one.validity !== "valid";
+  const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = one.slip_followed === "yes";
+  const shown = slip ? solution.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
+  const limits = interval({low: shown?.low?.[i], high: shown?.high?.[i]}, "N s/m");
+  const lawName = isDrag(one) ? "Eq. (16)" : "Eq. (12)";
+  return finding((slip ? "Damping constant" : "Damping constant without slip") + (point.other_directions ? `, motion ${damping.direction_in_words}` : ""), known(value) ? quantity(value, "N s/m", error > 0.1 ? 2 : 3) : "n/a",
+    [slip && known(solution.slip_share[i]) ? `${number(100 * solution.slip_share[i], 2)}${NARROW}% of the loss by slip` : "", limits && `95 %: ${limits}`, known(error) ? `numerical error ${errorPercent(error)}` : "",
+      `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`,
+      known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}${slip ? ` against ${quantity(curve.mean[i], "N s/m", 3)} without slip` : ""}` : ""], doubt);
 }
 
 /** States whether F ∝ exp(−ū/l) holds. */
@@ -86,11 +91,12 @@ function conclusion(main, point) {
     fill();
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
-    if (point.verdicts) {
-      element.append(h("p", {class: "verdict"}, h("strong", {}, "Assumptions of the damping constant. ")));
-      element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Assumptions"}, point.verdicts.replaceAll("`", "")));
+    for (const {verdicts, damping} of [point, ...(point.other_directions ?? [])].filter((one) => one.verdicts)) {
+      const heading = `Assumptions of the damping constant${point.other_directions ? `, motion ${damping.direction_in_words}` : ""}`;
+      element.append(h("p", {class: "verdict"}, h("strong", {}, `${heading}. `)));
+      element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": heading}, verdicts.replaceAll("`", "")));
     }
-    if (point.motion) element.append(h("p", {class: "verdict"}, rich(libraryText(point.motion))));
+    if (point.motion) element.append(h("p", {class: "verdict"}, rich(libraryText(point.motion)), (point.other_directions ?? []).map(({damping}) => ` Also computed ${damping.direction_in_words}.`)));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},

@@ -26,7 +26,7 @@ constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69
 constexpr int cycle = 7;
 constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
 /// Dash patterns of lines across a panel, so that the legend can tell them apart.
-constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2,3)"};
+constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2,3)", "(16,4)"};
 
 /// Width of a panel, height of its frame and size of its text, in pixels of 1/96 inch.
 struct Layout {
@@ -74,10 +74,17 @@ std::vector<std::string> wrapped(std::string_view text, double most) {
     if (!room && !lines.back().empty()) lines.emplace_back();
     lines.back() += (lines.back().empty() ? "" : " ") + std::exchange(word, "");
   };
-  // A number stays with its unit, and a symbol with its value.
+  // A number stays with its unit, a symbol with its value, and a formula in one line.
   const auto joined = [&](std::string_view next) {
-    return (!word.empty() && (std::isdigit(word.back()) || word.back() == '=')) ||
-           next.starts_with("= ") || next.starts_with("s/m");
+    const std::string_view last = std::string_view(word).substr(word.rfind(' ') + 1);
+    constexpr auto links = std::to_array<std::string_view>({"/", "−", "+", "±", "ln"});
+    const bool symbol =
+        (last.size() == 1 && std::isalpha(static_cast<unsigned char>(last[0])) && last != "a") ||
+        std::ranges::find(links, last) != links.end();
+    return (!word.empty() &&
+            (std::isdigit(static_cast<unsigned char>(word.back())) || word.back() == '=')) ||
+           symbol || next.starts_with("= ") || next.starts_with("s/m") || next.starts_with("ln") ||
+           next.starts_with("/ ") || next.starts_with("− ") || next.starts_with("± ");
   };
   for (std::size_t k = 0; k < text.size(); ++k) {
     braces += (text[k] == '{') - (text[k] == '}');
@@ -160,10 +167,16 @@ double width_of_entries(const std::vector<std::string>& names, const Layout& lay
 
 class PanelScript {
  public:
-  /// own_legend: whether the legend is in or below the panel.
+  /// own_legend: whether the legend is in or below the panel. line_names: of the lines across all
+  /// panels, which give them their patterns.
   PanelScript(const Panel& panel, int number, const Layout& layout, bool own_legend,
-              std::string& out)
-      : panel_(panel), number_(number), layout_(layout), own_legend_(own_legend), out_(out) {
+              const std::vector<std::string>& line_names, std::string& out)
+      : panel_(panel),
+        number_(number),
+        layout_(layout),
+        own_legend_(own_legend),
+        line_names_(line_names),
+        out_(out) {
     for (const Curve& curve : panel.curves) check(curve);
     if (panel.image) check_raster(*panel.image);
     std::vector<std::span<const double>> x, y;
@@ -397,8 +410,8 @@ class PanelScript {
 
   /// The pattern of the line; lines with the same name have the same.
   const char* dash_of(const ReferenceLine& mark) const {
-    const auto first = std::ranges::find(panel_.lines, mark.name, &ReferenceLine::name);
-    return line_dashes[static_cast<std::size_t>(first - panel_.lines.begin()) % line_dashes.size()];
+    const auto first = std::ranges::find(line_names_, mark.name);
+    return line_dashes[static_cast<std::size_t>(first - line_names_.begin()) % line_dashes.size()];
   }
 
   double beside(const DisplayAxis& axis, const std::vector<std::string>& label) const {
@@ -581,6 +594,7 @@ class PanelScript {
   int number_;
   Layout layout_;
   bool own_legend_, x_hidden_ = false;
+  const std::vector<std::string>& line_names_;
   std::string& out_;
   std::vector<std::string> title_, y_label_, right_label_, scale_label_;
   std::vector<std::pair<std::string, std::string>> entries_;
@@ -665,6 +679,11 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
   const int rows = (panels + columns - 1) / columns;
   const double across = columns * layout.width;
   std::string body;
+  std::vector<std::string> line_names;
+  for (const Panel& panel : figure.panels)
+    for (const ReferenceLine& mark : panel.lines)
+      if (std::ranges::find(line_names, mark.name) == line_names.end())
+        line_names.push_back(mark.name);
   std::vector<PanelScript> scripts;
   // Frames of a row have the same height, with room for the longest legend below them; those of a
   // column have the same left edge.
@@ -672,7 +691,7 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
       bottoms = tops, lefts(static_cast<std::size_t>(columns), 0);
   for (int k = 0; k < panels; ++k) {
     scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout,
-                         !figure.one_legend, body);
+                         !figure.one_legend, line_names, body);
     double& left = lefts[static_cast<std::size_t>(k % columns)];
     left = std::max(left, scripts.back().left());
   }
@@ -682,14 +701,15 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
   }
   // Lines of a legend are farther apart in an SVG, and the label of x is lower.
   const double line = (format == PictureFormat::svg ? 1.65 : 1.4) * layout.font,
-               gap = (format == PictureFormat::svg ? 1.5 : 0.4) * layout.font;
+               gap = (format == PictureFormat::svg ? 1.5 : 0.4) * layout.font,
+               low = format == PictureFormat::svg ? 0.8 * layout.font : 0;
   for (int k = 0; k < panels; ++k) {
     PanelScript& one = scripts[static_cast<std::size_t>(k)];
     one.arrange(lefts[static_cast<std::size_t>(k % columns)]);
     const auto row = static_cast<std::size_t>(k / columns);
     const int legend = one.legend_rows();
     tops[row] = std::max(tops[row], one.top());
-    bottoms[row] = std::max(bottoms[row], (one.x_hidden() ? layout.font : layout.bottom()) +
+    bottoms[row] = std::max(bottoms[row], (one.x_hidden() ? layout.font : layout.bottom()) + low +
                                               (legend > 0 ? legend * line + gap : 0));
   }
   const auto height_of = [&](int row) {

@@ -34,10 +34,13 @@ std::string loss_text(const OscillationOutcome& outcome) {
                                                      : std::string("no loss");
   };
   const std::string stick = text(outcome.work_per_cycle(), outcome.error_estimate());
-  if (!slips(outcome)) return stick == "no loss" ? stick : "W = " + stick;
-  const CycleResult& cycle = *outcome.frictional;
-  return "W = " + text(cycle.work_per_cycle, cycle.step_error) + " with slip, " + stick +
-         " without slip";
+  std::string all = stick;
+  if (slips(outcome)) {
+    const CycleResult& cycle = *outcome.frictional;
+    const std::string slip = text(cycle.work_per_cycle, cycle.step_error);
+    if (slip != stick) all = slip + " with slip, " + stick + " without slip";
+  }
+  return all.starts_with("no loss") ? all : "W = " + all;
 }
 
 Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {

@@ -68,9 +68,10 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
        .legend = Legend::top_left});
   figure.panels.back().curves = {mean, slow};
   figure.panels.push_back(
-      {.title = "slow sliding: Γ = " + error_text(first.state.low_speed_damping,
-                                                  first.errors.low_speed_damping_error,
-                                                  Dimension::damping),
+      {.title = "slow sliding: Γ = " +
+                error_text(first.state.low_speed_damping, first.errors.low_speed_damping_error,
+                           Dimension::damping) +
+                "; without slip γ = " + value_text(first.state.relaxation_damping, "N s/m"),
        .caption = "Energy lost in a normal cycle; relaxation is the part of springs that open.",
        .x = x,
        .y = axis_of("work_per_cycle", spans_decades(total.y), "loss W in a normal cycle"),
@@ -78,11 +79,10 @@ Figure figure_of(const std::vector<SlidingPoint>& points, double friction) {
   figure.panels.back().curves = {total, opening, slip};
   const double critical = first.state.critical_velocity;
   if (critical > lowest && critical < highest)
-    for (Panel& panel : figure.panels)
-      panel.lines = {{.at = critical,
-                      .vertical = true,
-                      .name = "v_c = " + value_text(critical, "m/s"),
-                      .quantity = "critical_velocity"}};
+    figure.panels.front().lines = {{.at = critical,
+                                    .vertical = true,
+                                    .name = "v_c = " + value_text(critical, "m/s"),
+                                    .quantity = "critical_velocity"}};
   return figure;
 }
 

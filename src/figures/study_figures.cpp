@@ -86,24 +86,35 @@ void add_answer(const StudyNumbers& numbers, Panel& damping) {
       means.rbegin(), means.rend(), [](const StatedMean& one) { return std::isfinite(one.mean); });
   if (last == means.rend()) return;
   const bool limits = have_limits(means);
+  const auto at = std::size_t(means.rend() - last) - 1;
+  const auto text = [&](const StatedMean& one) {
+    return limits ? interval_text(one.mean, one.low, one.high, Dimension::damping)
+                  : error_text(one.mean, one.error, Dimension::damping);
+  };
+  const bool several = !numbers.other_directions.empty();
+  const auto way = [&](double direction) {
+    return several ? " " + direction_in_words(direction) : std::string();
+  };
   // The headline of the table: γ at the highest pressure at which it is known.
-  damping.title = "γ = " +
-                  (limits ? interval_text(last->mean, last->low, last->high, Dimension::damping)
-                          : error_text(last->mean, last->error, Dimension::damping)) +
-                  " at " +
-                  format_quantity(numbers.pressures[std::size_t(means.rend() - last) - 1],
-                                  Dimension::pressure, 3) +
-                  (numbers.validity.empty() ? "" : " (" + numbers.validity + ")");
+  damping.title = "γ = " + text(*last) + way(numbers.direction);
+  for (const auto& [direction, others] : numbers.other_directions)
+    damping.title += ", " + text(others.at(at)) + way(direction);
+  damping.title += (several ? ", at " : " at ") +
+                   format_quantity(numbers.pressures[at], Dimension::pressure, 3) +
+                   (numbers.validity.empty() ? "" : " (" + numbers.validity + ")");
   damping.y.prefix_of = last->mean;
-  const std::string name = numbers.slips
-                               ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
-                               : "without slip";
   const bool errors = std::ranges::any_of(
       means, [](const StatedMean& one) { return !std::isnan(one.mean - one.error); });
-  damping.curves.push_back(points_of(name + (limits   ? ", 95 % interval"
-                                             : errors ? ", ± error"
-                                                      : ""),
-                                     numbers.pressures, means));
+  const std::string name =
+      (numbers.slips ? fmt::format("with slip, µ = {:g}", numbers.friction_coefficient)
+                     : "without slip");
+  const std::string bars = limits ? ", 95 % interval" : errors ? ", ± error" : "";
+  damping.curves.push_back(
+      points_of(name + way(numbers.direction) + bars, numbers.pressures, means));
+  for (const auto& [direction, others] : numbers.other_directions) {
+    damping.curves.push_back(points_of(name + way(direction) + bars, numbers.pressures, others));
+    damping.curves.back().color = 8;
+  }
 }
 
 /// Leaves out values that are far from all others: those of the curvature of a curve may be.
@@ -331,7 +342,8 @@ class Pictures {
     if (const double length = decay_length().mean; std::isfinite(length))
       panel.lines = {{.at = length, .name = "l of the fit", .quantity = "decay_length"}};
     for (std::size_t i = 0; i < std::min(n_.local.size(), max_single_curves); ++i)
-      panel.curves.push_back({.x = n_.local[i].mean_gap,
+      panel.curves.push_back({.name = i > 0 || n_.local.size() == 1 ? "" : "each surface",
+                              .x = n_.local[i].mean_gap,
                               .y = n_.local[i].decay_length,
                               .style = Style::line_and_points,
                               .color = 0});
@@ -356,7 +368,7 @@ class Pictures {
       std::ranges::copy_if(curve.y, std::back_inserter(values),
                            [](double value) { return std::isfinite(value); });
     panel.y.logarithmic = !values.empty() && spans_decades(values);
-    panel.lines = {{.at = 1, .name = "boundary elements"}};
+    panel.lines = {{.at = 1, .name = "equal to BEM"}};
   }
 
   const StudyNumbers& n_;
@@ -373,11 +385,16 @@ std::string motion_sentence(const StudyNumbers& numbers) {
          (numbers.hold == Hold::indentation ? ", mean indentation held"
           : numbers.hold == Hold::force     ? ", mean force held"
                                             : ", mean force held where the contact lifts off") +
-         (std::isnan(numbers.direction) ? "" : ", " + direction_in_words(numbers.direction)) +
+         (std::isnan(numbers.direction) || !numbers.other_directions.empty()
+              ? ""
+              : ", " + direction_in_words(numbers.direction)) +
          (std::isnan(numbers.friction_coefficient)
               ? ", without slip"
               : fmt::format(", µ = {:g}", numbers.friction_coefficient)) +
-         ".";
+         "." +
+         (numbers.other_directions.empty()
+              ? ""
+              : " Lines are of the motion " + direction_in_words(numbers.direction) + ".");
 }
 
 StudyNumbers numbers_of(const StudyResult& result) {
@@ -417,6 +434,11 @@ StudyNumbers numbers_of(const StudyResult& result) {
   numbers.direction = answer.direction;
   numbers.slips = answer.slips();
   numbers.damping_constant = answer.damping_constant;
+  const std::vector<StudyResult> directions = result.in_directions();
+  for (std::size_t k = 1; k < directions.size(); ++k) {
+    StudySolution other = solution_of(directions[k]);
+    numbers.other_directions.emplace_back(other.direction, std::move(other.damping_constant));
+  }
   numbers.validity = validity_text(answer.verdicts);
   numbers.closed_form = result.damping("damping_constant_closed_form");
   numbers.small_amplitude = result.damping("small_amplitude_damping_constant");

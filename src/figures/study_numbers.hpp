@@ -5,6 +5,7 @@
 #include <salebra/figures/figure.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace salebra::figures {
@@ -39,6 +40,8 @@ struct StudyNumbers {
   double excursion = unknown, friction_coefficient = unknown, direction = unknown;
   bool slips = false;                             ///< damping_constant is with slip
   std::vector<StatedMean> damping_constant = {};  ///< of the motion as described
+  /// The same in further directions of the motion, rad.
+  std::vector<std::pair<double, std::vector<StatedMean>>> other_directions = {};
   std::string validity = {}, law = {};  ///< what the headlines say of results that are not valid
   /// Of the boundary elements without slip: by the fitted law, by the curvature of the curve, and the
   /// deviation of the first from the computed loss.

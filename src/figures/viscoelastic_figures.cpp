@@ -11,7 +11,9 @@ namespace salebra::figures {
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses) {
-  const Axis x = axis_of(quantity, grows_by_factors(values));
+  Axis x = axis_of(quantity, grows_by_factors(values));
+  // "1 … 1000 Hz" rather than "0.001 … 1 kHz".
+  if (x.logarithmic) x.prefix_of = values.front();
   const auto curve = [&](const char* name, const char* of, const auto& value) {
     Curve out{.name = name, .quantity = of, .x = values, .style = Style::line_and_points};
     for (const ViscoelasticLoss& loss : losses) out.y.push_back(value(loss));
@@ -24,12 +26,12 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   figure.panels.push_back({.title = "W = " + value_text(last.work_per_cycle, "J") +
                                     ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
                                     value_text(values.back(), x.unit),
-                           .caption = "Energy lost in a cycle and its causes, beside the loss of "
-                                      "an elastic body of the relaxed modulus.",
+                           .caption =
+                               "Energy lost in a cycle and its causes, beside the loss of "
+                               "an elastic body of the relaxed modulus; γ is that of the total.",
                            .x = x,
                            .y = axis_of("work_per_cycle", true, "loss W"),
                            .legend = Legend::top_left});
-  figure.panels.back().x.prefix_of = values.back();
   figure.panels.back().y.prefix_of = last.work_per_cycle;
   figure.panels.back().curves = {
       curve("material, normal", "normal_material_work",

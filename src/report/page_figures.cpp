@@ -8,10 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <salebra/base/error.hpp>
+#include <salebra/base/grid.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
+#include <salebra/surface/lay.hpp>
 #include <string_view>
 #include <utility>
 
@@ -40,8 +43,10 @@ class PageFigures : StudyGroups {
   Json all(Index map_side) {
     of_picture(map_side);
     const figures::StudyNumbers numbers = study_numbers();
-    for (const Figure& picture : figures::study_pictures(numbers))
+    for (Figure& picture : figures::study_pictures(numbers)) {
+      if (picture.kind == "damping-curve") add_other_directions(picture);
       all_.push_back(figures::figure_object(picture));
+    }
     of_spots();
     if (has("adhesion/mean_gap"))
       add("adhesion-loop", "Pressure over mean gap in a cycle",
@@ -243,6 +248,29 @@ class PageFigures : StudyGroups {
     numbers.slips = text("solution", "slip_followed") == "yes";
   }
 
+  /// The damping constants of motions in further directions, as points.
+  void add_other_directions(Figure& picture) const {
+    constexpr int colors[] = {3, 4, 5};
+    for (std::size_t k = 1; has(fmt::format("directions/{}/solution/damping_constant_mean", k));
+         ++k) {
+      const std::string group = fmt::format("directions/{}/", k);
+      const std::string way = direction_in_words(attribute(group + "damping", "direction"));
+      Curve points{.name = way,
+                   .quantity = "damping_constant",
+                   .x = pressures_,
+                   .style = Style::points,
+                   .color = colors[(k - 1) % std::size(colors)]};
+      for (const StatedMean& one : means(group + "solution/damping_constant")) {
+        const bool limits = !std::isnan(one.low);
+        points.y.push_back(one.mean);
+        points.low.push_back(limits ? one.low : one.mean - one.error);
+        points.high.push_back(limits ? one.high : one.mean + one.error);
+      }
+      picture.panels[0].curves.push_back(std::move(points));
+      picture.caption += fmt::format(" The points “{}” are for the motion in that direction.", way);
+    }
+  }
+
   void add(const char* name, const char* title, std::string caption, Panel panel) {
     std::optional<figures::Image> image = std::move(panel.image);
     const std::vector<Index> size{image ? image->values.rows() : 0,
@@ -303,6 +331,24 @@ class PageFigures : StudyGroups {
     return picture;
   }
 
+  /// The spectra of profiles across and along the lay; nothing for a surface without a lay, and for
+  /// a file that has only a part of the points.
+  std::optional<Panel> spectra_of_lay(const std::string& group) const {
+    if (attribute("picture", "stride") != 1) return {};
+    const std::vector<double> x = file_.numbers(group + "/x"), y = file_.numbers(group + "/y");
+    if (x.size() < 2 || y.size() < 2) return {};
+    const auto rows = Index(x.size()), columns = Index(y.size());
+    const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
+    Surface surface;
+    surface.grid = {rows, columns, double(rows) * (x[1] - x[0]), double(columns) * (y[1] - y[0])};
+    surface.heights = Eigen::Map<const Field>(heights.data(), rows, columns);
+    const figures::SurfaceSpectrum spectrum = figures::spectrum_of(surface);
+    if (!spectrum.of_lay) return {};
+    Panel panel = figures::figure_of(surface, spectrum).panels.at(1);
+    panel.caption = "";
+    return panel;
+  }
+
   /// The caption with the load in place of "{}".
   static std::string captioned(std::string caption, const std::string& load) {
     if (const std::size_t place = caption.find("{}"); place != std::string::npos)
@@ -339,9 +385,16 @@ class PageFigures : StudyGroups {
     const auto load = std::size_t(shown.mapped_load);
     const std::string pressed = format_quantity(
         load < pressures_.size() ? pressures_[load] : ForceSample::unknown, Dimension::pressure, 3);
+    std::optional<Panel> of_lay = spectra_of_lay(where_ + "picture");
     for (Panel& panel : figures::figure_of(shown, pressures_).panels)
       for (const Place& place : places)
-        if (place.quantity == (panel.image ? panel.image->scale : panel.y).quantity)
+        if (of_lay && place.name == std::string_view("spectrum") && panel.y.quantity == "psd")
+          add(place.name, place.title,
+              "C_1 of profiles across and along the lay, with 95 % bands and, where found, "
+              "the fitted laws. "
+              "Wavelengths are 2π/q.",
+              *of_lay);
+        else if (place.quantity == (panel.image ? panel.image->scale : panel.y).quantity)
           add(place.name, place.title, captioned(place.caption, pressed), std::move(panel));
   }
 

@@ -12,6 +12,7 @@
 #include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
+#include <salebra/surface/lay.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -67,8 +68,23 @@ class Point : StudyGroups {
     add(json, "curve",
         of_bem("curve/ensemble_", {"mean_gap", "normal_stiffness", "tangential_stiffness"}));
     add(json, "fit", fit());
-    add(json, "damping", damping());
     add(json, "adhesion", adhesion());
+    add_damping(json);
+    for (std::size_t k = 1; file_.has(fmt::format("{}directions/{}/damping/force", where_, k));
+         ++k) {
+      Json other{{"pressure", list(pressures_)}};
+      Point(file_, fmt::format("{}directions/{}/", where_, k)).add_damping(other);
+      if (json["other_directions"].is_null()) json["other_directions"] = Json::array();
+      json["other_directions"].push_back(std::move(other));
+    }
+    add(json, "assumptions", assumptions());
+    return json;
+  }
+
+ private:
+  /// The results that depend on the direction of the tangential motion.
+  void add_damping(Json& json) const {
+    add(json, "damping", damping());
     if (has(solution("pressure"))) {
       for (const char* name : {"validity", "verdicts", "slip_followed"})
         if (const auto text = file_.text_attribute(where_ + "solution", name)) json[name] = *text;
@@ -79,11 +95,8 @@ class Point : StudyGroups {
       json["solution"]["slip_share"] = list(required(solution("slip_share")));
       if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
-    add(json, "assumptions", assumptions());
-    return json;
   }
 
- private:
   std::string solution(const std::string& name) const { return "solution/" + name; }
 
   /// Returns the name of the dataset of a loss without slip. Files of version 1.0 store it without
@@ -243,6 +256,8 @@ class Point : StudyGroups {
           "modulus_ratio", "contact_modulus", "friction_coefficient", "direction"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
+    if (const double direction = attribute("damping", "direction"); !std::isnan(direction))
+      json["direction_in_words"] = direction_in_words(direction);
     return json;
   }
 

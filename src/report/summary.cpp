@@ -161,7 +161,10 @@ std::string summary_of(const Json& payload) {
     const bool several = payload["points"].size() > 1;
     text +=
         fmt::format("<section><h2>Results{}</h2>", several ? fmt::format(", point {}", ++i) : "");
-    text += law(point) + adhesion(point) + validity(point) + damping(point) + "</section>";
+    text += law(point) + adhesion(point) + validity(point) + damping(point);
+    if (const Json* others = find(point, {"other_directions"}))
+      for (const Json& other : others->elements()) text += damping(other) + validity(other);
+    text += "</section>";
   }
   return text;
 }

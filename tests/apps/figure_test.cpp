@@ -542,8 +542,8 @@ TEST_CASE("The map of sliding and the work of an oscillation are those of the an
     CHECK(work["curves"][0]["y"][k].get<double>() * cycle["small_amplitude_work"].get<double>() ==
           Approx(cycle["work"][k].get<double>()).epsilon(1e-12).margin(1e-20));
   CHECK_THAT(figure["caption"].get<std::string>(),
-             Contains("Motion: 6 µm tangential and 6 µm normal, 90° apart, no slip") &&
-                 Contains("free boundary"));
+             Contains("Motion: 6 µm tangential and 6 µm normal, 90° apart, mean") &&
+                 Contains("free boundary; no slip"));
 }
 
 TEST_CASE("A series of factors is along a logarithmic axis", "[plot]") {
@@ -836,6 +836,27 @@ TEST_CASE("A surface with a lay is drawn the same by all commands", "[statistics
   CHECK(read[0]["title"] == generated[0]["title"]);
   for (const std::size_t along : {0u, 2u})
     CHECK(read[1]["curves"][along]["y"].size() == generated[1]["curves"][along]["y"].size());
+}
+
+TEST_CASE("The headline of an oscillation with friction is the loss with slip",
+          "[oscillate][plot]") {
+  const ProgramTest test;
+  const json answer = test.answer(
+      "oscillate --shape paraboloid,sinusoids --contact-modulus 1GPa --poisson 0.3 --friction 0.3 "
+      "--points 32 --steps 16 --plot f.json");
+  const json figure = json::parse(test.read("f.json"));
+  int k = 2;
+  for (const std::string shape : {"paraboloid", "sinusoids"}) {
+    const json panel = figure["panels"][k++];
+    const double work = answer[shape]["friction"]["work_per_cycle"];
+    CHECK_THAT(
+        panel["title"].get<std::string>(),
+        Contains(fmt::format("W = {:.3g} µJ with slip", 1e6 * work)) && Contains("(not valid: "));
+    CHECK(panel["curves"][1]["y"].back() ==
+          Approx(work / answer[shape]["small_amplitude_work"].get<double>()).epsilon(1e-5));
+  }
+  CHECK_THAT(figure["caption"].get<std::string>(),
+             Contains("paraboloid, 6 µm") && Contains("sinusoids, 1.35 µm"));
 }
 
 TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",

@@ -99,6 +99,9 @@ TEST_CASE("A curve that follows the exponential law lies on its fit in every pan
   fit.decay_length *= 2;
   const Figure wrong = figure_of(curve, fit);
   CHECK(std::abs(wrong.panels.back().curves.at(0).y.front()) > 10);
+  // The window is where its samples are, and not where the law has their pressures.
+  CHECK(wrong.panels[0].ranges.at(0).low == curve.samples.front().mean_gap);
+  CHECK(wrong.panels[0].ranges.at(0).high == curve.samples.back().mean_gap);
   // A law that is far from the curve at the ends of the window is not to be used.
   fit.window.points = curve.samples.size();
   CHECK_THAT(figure_of(curve, fit).panels[0].title, Contains("do not use Eq. (16)"));

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import re
 import sys
 from collections.abc import Callable
@@ -123,6 +124,46 @@ def test_the_figure_of_a_command_is_drawn_as_it_is(program: Callable[..., Any], 
     program(*words, "--quiet", "--plot", tmp_path / "figure.json")
     for width in (COLUMN, PAGE):
         check(command, figure_of(tmp_path / "figure.json"), width)
+
+
+def test_figures_say_what_their_result_was_computed_from() -> None:
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), salebra.Material(115e9, poisson=0.3))
+    joint = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=219.16662e-9, force=10.0)
+    loop, backbone = joint.figure().panels[0].curves
+    # The area of the loop is the loss of Mindlin and Deresiewicz.
+    assert abs(np.trapezoid(loop.y, loop.x)) == pytest.approx(joint.work_per_cycle, rel=1e-4)
+    drag = salebra.Drag(normal_amplitude=3e-7, drag_velocity=2e-3, angular_frequency=1e5)
+    sliding = salebra.steady_sliding(law, drag, friction_coefficient=0.4, indentation=1e-6)
+    computed, limit, mark = sliding.figure().panels[0].curves
+    # The curve passes through the result: it is not interpolated far.
+    assert np.interp(mark.x[0], computed.x, computed.y) == pytest.approx(sliding.friction_coefficient, rel=1e-3)
+    for one in (joint, sliding):
+        with pytest.raises(salebra.InvalidInput, match="does not know the contact law"):
+            pickle.loads(pickle.dumps(one)).figure()
+    equal = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=5e-8, phase=1.5, angular_frequency=6.28e3)
+    slips = salebra.ContactParameters(friction_coefficient=0.3)
+    for result in (
+        salebra.trajectory_damping(law, salebra.sample(equal, 1e-6, 64), friction_coefficient=0.3),
+        salebra.damping_curve(law, [equal], force=10.0, parameters=slips),
+    ):
+        caption = result.figure().caption
+        assert "nm tangential and 100 nm normal" in caption and "µ = 0.3" in caption and "F = 1" in caption
+    rubber = salebra.Material(4e6, poisson=0.5)
+    cone, prony = salebra.IndenterLaw(salebra.cone_profile(0.2), rubber), salebra.PronySeries.of_body(rubber, [(3e6, 0.02)])
+    loss = salebra.viscoelastic_damping(cone, prony, salebra.sample(equal, 2e-5, 64))
+    over_frequency = loss.figure().panels[0].curves[-1]
+    at = over_frequency.x.tolist().index(pytest.approx(6.28e3))
+    assert over_frequency.y[at] == loss.work_per_cycle
+
+
+def test_the_figure_of_a_fit_is_that_of_the_program(program: Callable[..., Any], surface: salebra.Surface, tmp_path: Path) -> None:
+    curve = salebra.sweep_pressures(surface, salebra.Material(1e9, poisson=0.3), np.geomspace(1e5, 1e7, 16))
+    table = tmp_path / "curve.csv"
+    np.savetxt(table, np.column_stack([curve.mean_gap, curve.pressure]), delimiter=",", header="mean_gap (m),pressure (Pa)", comments="")
+    picture = tmp_path / "fit.json"
+    program("fit", str(table), "--pressure-window", "0.3MPa,5MPa", "--plot", str(picture))
+    title = json.loads(picture.read_text())["panels"][0]["title"]
+    assert title and salebra.fit_exponential(curve, (3e5, 5e6)).figure().panels[0].title == title
 
 
 def test_results_share_axes_in_si_units_and_only_with_their_like(surface: salebra.Surface) -> None:

@@ -22,12 +22,15 @@ struct CurveOf {
   std::vector<Item> results;
   /// Name of the quantity of the means, if Item is a mean; otherwise empty.
   std::string quantity = {};
+  /// What all results have in common, for the end of a caption.
+  std::string setting = {};
 };
 
 template <class Item>
 constexpr void describe(auto&& visit, std::type_identity<CurveOf<Item>>) {
   using Curve = CurveOf<Item>;
-  keep(visit, &Curve::coordinate, &Curve::values, &Curve::results, &Curve::quantity);
+  keep(visit, &Curve::coordinate, &Curve::values, &Curve::results, &Curve::quantity,
+       &Curve::setting);
 }
 
 /// Defines the Python class of a curve: a sequence with its coordinate, tables and pictures, and an

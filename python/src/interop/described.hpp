@@ -97,8 +97,9 @@ void described_property(nb::class_<Bound>& bound, Member member, const Line& lin
 
 /// Binds a class with pickle, == and a read-only property for each line of the description of T.
 template <Described T>
-nb::class_<T> described_class(nb::module_& module, const char* name, const char* meaning) {
-  nb::class_<T> bound(module, name, meaning);
+nb::class_<T> described_class(nb::module_& module, const char* name, const char* meaning,
+                              const auto&... extra) {
+  nb::class_<T> bound(module, name, extra..., meaning);
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
            std::type_identity<T>{});
   value_methods(bound);

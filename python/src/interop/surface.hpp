@@ -88,16 +88,19 @@ inline nb::object call_python(const char* module, const char* function, nb::hand
   return nb::module_::import_(module).attr(function)(self, *arguments, **keywords);
 }
 
-/// Defines the methods figure(), which is what drawn(const Bound&) makes, and plot(), by which
-/// salebra._plots draws a panel of it.
+/// Defines the methods figure(), which is what drawn(const Bound&) or the function of with_figure()
+/// makes, and plot(), by which salebra._plots draws a panel of it.
 template <class Bound, class Drawn>
 void figure_methods(nb::class_<Bound>& bound, Drawn drawn) {
   if constexpr (std::invocable<Drawn, const Bound&>)
     bound.def(
         "figure",
-        [drawn](const Bound& self) {
-          require_whole_if_spread(self, "a figure");
-          return figures::with_limits(drawn(self));
+        [drawn](nb::handle_t<Bound> self) {
+          const auto& result = nb::cast<const Bound&>(nb::handle(self));
+          require_whole_if_spread(result, "a figure");
+          return figures::with_limits(nb::hasattr(self, "_draw")
+                                          ? nb::cast<figures::Figure>(self.attr("_draw")(self))
+                                          : drawn(result));
         },
         "What is drawn of the result, as data.");
   bound.def(
