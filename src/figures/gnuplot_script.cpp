@@ -26,7 +26,7 @@ constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69
 constexpr int cycle = 7;
 constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
 /// Dash patterns of lines across a panel, so that the legend can tell them apart.
-constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(6,3,2,3,2,3)", "(16,4)"};
+constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(2,10)", "(16,4)"};
 
 /// Width of a panel, height of its frame and size of its text, in pixels of 1/96 inch.
 struct Layout {
