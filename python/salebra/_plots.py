@@ -27,7 +27,7 @@ _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 _TURN = 7  # grey and wine only on request
 _MARKERS = ("o", "s", "^", "D", "v", "p", "x", "+", "*")
 _DASHES = {"dashed": "--", "dotted": ":", "points": "none"}
-_LINES = ((0, (1, 2)), (0, (6, 3)), (0, (6, 2, 1, 2)), (0, (4, 2, 1, 2, 1, 2)))
+_LINES = ((0, (1, 2)), (0, (6, 3)), (0, (6, 2, 1, 2)), (0, (4, 2, 1, 2, 1, 2)), (0, (12, 3)), (0, (3, 1)))
 _ACROSS = "#404040"
 _PALETTES = {"sequential": "viridis", "diverging": "RdBu_r", "grey": "gray_r"}
 _PREFIXED = PREFIXED | {"m/s", "J/m", "N/m²", "N/m^2"}
@@ -98,7 +98,7 @@ def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     label = axis.label.get_fontsize() * 0.55
-    many = max(3, int(points / ((9 if axis.axis_name == "x" else 4) * label)))
+    many = max(1, int(points / ((9 if axis.axis_name == "x" else 4) * label)))
     ends = [abs(end) * getattr(described, "factor", 1) for end in (main or axis).get_view_interval()]
     largest = math.sqrt(ends[0] * ends[1]) if (main or axis).get_scale() == "log" else max(ends)
     unit, factor = _prefixed(described.unit, getattr(described, "prefix_of", None) or largest)
@@ -119,6 +119,11 @@ def _scale(axis: Any, described: Any, points: float, main: Any = None) -> None:
         axis.set_major_locator(MaxNLocator(min(many, 8), steps=[1, 2, 2.5, 5, 10]))
 
 
+def _shape(image: Any) -> float:
+    """Height over width of a map with equal scales."""
+    return float((image.y[-1] - image.y[0]) / (image.x[-1] - image.x[0]))
+
+
 def _image(ax: Axes, image: Any, equal: bool, keywords: dict[str, Any]) -> None:
     from matplotlib.colors import LogNorm
 
@@ -127,6 +132,9 @@ def _image(ax: Axes, image: Any, equal: bool, keywords: dict[str, Any]) -> None:
     if image.palette == "diverging" and limits == [None, None]:
         most = float(np.nanmax(np.abs(values)))
         limits = [-most, most]
+    # A scale begins at 0, as that of a contact pressure, unless all values are far from it.
+    if limits[0] is None and not scale.logarithmic and np.isfinite(values).any() and 0 <= 2 * np.nanmin(values) < np.nanmax(values):
+        limits[0] = 0.0
     if scale.logarithmic:
         values = np.where(values > 0, values, np.nan)
     look: dict[str, Any] = {"cmap": _PALETTES[image.palette], "shading": "nearest", "rasterized": True} | keywords
@@ -143,8 +151,9 @@ def _image(ax: Axes, image: Any, equal: bool, keywords: dict[str, Any]) -> None:
             else:
                 placed.append(place)
     if image.color_bar:
-        room: dict[str, Any] = {"fraction": 0.046, "pad": 0.03} if equal else {}
-        bar = ax.figure.colorbar(mesh, ax=ax, **room)
+        # The bar of a map stands at its edge, however narrow it is, so that the map stays in the middle.
+        high = _shape(image) if equal else 0.0
+        bar = ax.figure.colorbar(mesh, cax=ax.inset_axes((1 + 0.04 * high, 0, 0.05 * high, 1)) if equal else None, ax=None if equal else ax)
         _scale(bar.ax.yaxis, scale, _points(ax, 1))
 
 
@@ -217,8 +226,8 @@ def _second(ax: Axes, panel: Any, fresh: bool, scales: Any) -> None:
             _scale(child.xaxis if way == "x" else child.yaxis, second, _points(ax, way == "y"), main)
 
 
-def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, scales: Any = None, letter: bool = True) -> None:
-    """Draws a panel, on axes that may have one already. keywords: style of its map or first curve."""
+def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, scales: Any = None, letter: bool = True, names: list[str] | None = None) -> None:
+    """Draws a panel, on axes that may have one already. keywords: style of its map or first curve. names: of the lines of all panels with one legend."""
     drawn = [line for line in ax.lines if line.get_transform().contains_branch(ax.transData)]
     fresh = not drawn and not ax.collections
     for axis, described in ((ax.xaxis, panel.x), (ax.yaxis, panel.y)):
@@ -238,7 +247,8 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, s
         number = (turn if curve.color < 0 else curve.color + len(drawn)) % _TURN if curve.color < _TURN else curve.color
         turn += curve.color < 0
         _curve(ax, curve, number, keywords if shown == 0 and not panel.image else {})
-    for dashes, line in zip(_LINES * len(panel.lines), panel.lines):
+    for place, line in enumerate(panel.lines):
+        dashes = _LINES[(names.index(line.name) if names else place) % len(_LINES)]
         along = panel.x if line.vertical else panel.y
         seen = along.low is None or along.high is None or along.low <= line.at <= along.high
         (ax.axvline if line.vertical else ax.axhline)(line.at, color=_ACROSS, linestyle=dashes, linewidth=0.8, label=seen and _text(line.name) or "_")
@@ -249,8 +259,11 @@ def _panel(ax: Any, panel: Any, keywords: dict[str, Any], legend: bool = True, s
             limit(described.low, described.high)
     else:
         ax.autoscale()
-    _scale(ax.xaxis, panel.x, _points(ax, 0))
-    _scale(ax.yaxis, panel.y, _points(ax, 1))
+    wide, high = _points(ax, 0), _points(ax, 1)
+    if panel.equal_scales and panel.image:  # which leave a part of the axes empty
+        wide, high = min(wide, high / _shape(panel.image)), min(high, wide * _shape(panel.image))
+    _scale(ax.xaxis, panel.x, wide)
+    _scale(ax.yaxis, panel.y, high)
     _second(ax, panel, fresh, scales or (panel.second_x, panel.second_y))
     title = panel.title if letter else re.sub(r"^\([a-z]\) ?", "", panel.title)
     if title and fresh:
@@ -317,12 +330,13 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, ca
         if figure.title:
             drawn.suptitle(_wrapped(figure.title, 72 * across, rcParams["font.size"] * 1.2))
         grid = drawn.add_gridspec(rows, 2 * columns)
+        names = list(dict.fromkeys(line.name for panel in panels for line in panel.lines)) if figure.one_legend else None
         for k, panel in enumerate(panels):
             row, column = divmod(k, columns)
             top = panels[0].second_x  # in one column the scale at the top is that of the panels below, too
             repeated = columns == 1 and k > 0 and top and panel.second_x and panel.second_x.label == top.label
             left = 2 * column + max(0, (row + 1) * columns - count)  # a last row that is not full is in the middle
-            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {}, not figure.one_legend, (None if repeated else panel.second_x, panel.second_y))
+            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {}, not figure.one_legend, (None if repeated else panel.second_x, panel.second_y), names=names)
         axes = [ax for ax in drawn.axes if ax.get_subplotspec()]
         for upper, panel, lower in zip(axes, panels, panels[1:] if columns == 1 else []):
             ends = [(one.x.label, one.x.low, one.x.high) for one in (panel, lower)]
@@ -330,11 +344,8 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, ca
                 upper.tick_params(labelbottom=False)  # the panel below has the same axis
                 upper.set_xlabel("")
         entries: dict[str, Any] = {}
-        for ax, panel in zip(axes, panels if figure.one_legend else []):
-            across_panel = [_text(line.name) for line in panel.lines]
+        for ax in axes if figure.one_legend else []:
             for handle, name in zip(*ax.get_legend_handles_labels()):
-                if name in across_panel and getattr(handle, "get_color", str)() == _ACROSS:
-                    name += f" {panel.title.split()[0]}"  # lines of several panels look alike
                 entries.setdefault(name, handle)
         # Room for what is below the panels.
         drawn.draw_without_rendering()

@@ -82,9 +82,9 @@ function addFigure(parent, spec) {
 /** Downloads the picture as shown, as SVG for a paper or a slide. */
 async function pictureOf(id, plot) {
   // The legend of the page is not part of the plot.
-  const named = plot.data.filter(({showlegend}) => showlegend).length > 1;
-  const layout = {...plot.layout, showlegend: named, legend: {orientation: "h", y: -0.2}};
-  const address = await Plotly.toImage({data: plot.data, layout}, {format: "svg", width: plot.clientWidth, height: plot.clientHeight + (named ? 60 : 0)});
+  const names = plot.data.filter(({showlegend, visible}) => showlegend && visible).length;
+  const layout = {...plot.layout, showlegend: names > 1, legend: {orientation: "h", y: -0.2}};
+  const address = await Plotly.toImage({data: plot.data, layout}, {format: "svg", width: plot.clientWidth, height: plot.clientHeight + (names > 1 ? 20 * names : 0)});
   download(`${id}.svg`, "image/svg+xml", decodeURIComponent(address.slice(address.indexOf(",") + 1)));
   document.getElementById("live").textContent = `${id}.svg is downloaded`;
 }

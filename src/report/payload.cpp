@@ -253,7 +253,7 @@ class Point : StudyGroups {
       if (const auto text = file_.text_attribute(where_ + "damping", name)) json[name] = *text;
     for (const char* name :
          {"normal_amplitude", "angular_frequency", "drag_velocity", "tangential_amplitude", "phase",
-          "modulus_ratio", "contact_modulus", "friction_coefficient", "direction"})
+          "modulus_ratio", "contact_modulus", "friction_coefficient"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
     if (const double direction = attribute("damping", "direction"); !std::isnan(direction))

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/units.hpp>
-#include <salebra/surface/lay.hpp>
 #include <sstream>
 #include <vector>
 
@@ -109,10 +108,10 @@ std::string damping(const Json& point) {
   if (max_forces) heads.push_back("largest force");
   if (contact_times) heads.push_back("contact time");
   if (regimes) heads.push_back("regime");
-  const Json* direction = find(point, {"damping", "direction"});
+  const Json* direction = find(point, {"damping", "direction_in_words"});
   std::string text = "<table><caption>Damping constant by boundary elements" +
-                     (direction ? ", motion " + direction_in_words(direction->number()) : "") +
-                     "</caption><thead>" + row(heads, "th") + "</thead><tbody>";
+                     (direction ? ", motion " + direction->text() : "") + "</caption><thead>" +
+                     row(heads, "th") + "</thead><tbody>";
   for (std::size_t i = 0; i < forces->size(); ++i) {
     std::vector<std::string> cells{shown(at(pressures, i), Dimension::pressure),
                                    shown(at(forces, i), Dimension::force),

@@ -9,6 +9,7 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <sstream>
 #include <tuple>
 
@@ -257,6 +258,34 @@ TEST_CASE("Direct results stand beside the damping of the same motion and of no 
   options.direct = {scratch / "study.h5"};
   CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
                     Contains("not contain an oscillation"));
+}
+
+TEST_CASE("A page of a surface with a lay has its two spectra and both directions of motion",
+          "[report]") {
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
+  const Scratch scratch;
+  StudyConfiguration study = small_study();
+  study.stick = true;
+  std::get<GeneratedSurfaces>(study.surfaces).textures.front().lay.along = 6;
+  const StudyResult result = run_study(study);
+  write_study(scratch / "study.h5", result);
+  write_report(scratch / "study.h5", scratch / "study.html");
+  const std::string page = content(scratch / "study.html");
+  const Json point = payload(page)["points"][0];
+  CHECK(point["damping"]["direction_in_words"] == "along y");
+  REQUIRE(point["other_directions"].size() == 1);
+  const Json& other = point["other_directions"][0];
+  CHECK(other["damping"]["direction_in_words"] == "along x");
+  const StatedMean expected = solution_of(result.in_directions().at(1)).damping_constant.back();
+  CHECK(other["solution"]["damping_constant"]["mean"].back().get<double>() ==
+        Approx(expected.mean).epsilon(1e-6));
+  CHECK(count(page, "<caption>Damping constant by boundary elements, motion along") == 2);
+  for (const Json& figure : point["figures"])
+    if (figure["kind"] == "spectrum")
+      CHECK(figure["panels"][0]["y"]["quantity"] == "profile_psd");
+    else if (figure["kind"] == "damping-curve")
+      CHECK(figure["panels"][0]["curves"].back()["name"] == "along x");
 }
 
 TEST_CASE("The points of a parameter grid share the room for maps", "[report]") {
