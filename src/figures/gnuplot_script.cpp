@@ -204,9 +204,14 @@ class PanelScript {
     y_label_ = wrapped(y_.label, high);
     if (right_) right_label_ = wrapped(right_->label, high);
     if (raster_) scale_label_ = wrapped(raster_->scale.label, high);
-    // The title is in the middle of the frame, which is not that of the panel.
-    title_ =
-        wrapped(panel.title, (layout.width - std::abs(left() - right())) / layout.mean_character());
+    // The title is in the middle of the frame, which is not that of the panel; the frame of a map
+    // is as wide as its scale asks, at the left.
+    double wide = layout.width - left() - right();
+    if (panel.equal_scales && x_.low && x_.high && y_.low && y_.high)
+      wide = std::min(wide, layout.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low));
+    const double middle = left() + wide / 2;
+    title_ = wrapped(panel.title,
+                     2 * std::min(middle, layout.width - middle) / layout.mean_character());
   }
 
   /// Whether the panel of this script, right below, has the same axis x.
