@@ -213,8 +213,7 @@ void press_files(ContactArguments arguments, const std::vector<std::string>& fil
                                    {arguments.model != "bem", "--model"},
                                    {arguments.groups > 0, "--groups"},
                                    {arguments.dry_run.dry_run, "--dry-run"}});
-  arguments.command->require_none_of(
-      once, "takes one surface, and several are given; --csv writes their table");
+  arguments.command->require_none_of(once, takes_one_surface);
   const std::vector<double> pressures = arguments.at.pressure;
   require_that(!pressures.empty(), "--pressure",
                "not given; several surfaces are compared at the same nominal pressures");

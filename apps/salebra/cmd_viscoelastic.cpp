@@ -172,8 +172,8 @@ void add_viscoelastic_command(Program& program) {
       ->file(FileUse::input);
   command.under("Options");
   add_values(command, "--creep", arguments->creep, Dimension::time,
-             "times at which a load or indentation, applied to SURFACE at time 0 and held, is "
-             "answered in place of a motion, such as 1ms:10s:9");
+             "times at which a load or indentation, applied to one SURFACE at time 0 and held, is "
+             "answered in place of a motion, such as 1ms:10s:9; without --csv");
   arguments->motion.add_to(command);
   add_steps(command, arguments->steps,
             "straight steps per cycle; default 512, with SURFACE 64, even; between the times of "

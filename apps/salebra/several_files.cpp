@@ -98,13 +98,11 @@ void add_table_file(Command& command, std::string& file) {
 void require_options_of_one(const Session& session,
                             const std::vector<std::pair<bool, const char*>>& others) {
   session.require_one_process("a table of several files");
-  const auto refuse = [](bool given, const char* option) {
+  for (const auto& [given, option] :
+       {std::pair(session.has_output(), "--output"), {session.has_plot(), "--plot"}})
     require_that(!given, option,
-                 "takes one surface, and several are given; --csv writes their table");
-  };
-  refuse(session.has_output(), "--output");
-  refuse(session.has_plot(), "--plot");
-  for (const auto& [given, option] : others) refuse(given, option);
+                 "takes one surface, not a table of several; --csv alone writes that table");
+  for (const auto& [given, option] : others) require_that(!given, option, takes_one_surface);
 }
 
 Json member(const Json& answer, const std::string& path, std::size_t load) {

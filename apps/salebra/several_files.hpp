@@ -77,7 +77,12 @@ void add_damping_columns(FileTable& table, const std::string& path,
 void answer_files(const std::vector<std::string>& files, const FileTable& table, Session& session,
                   const std::function<void(const std::string& file)>& run);
 
-/// Throws InvalidInput if an option is given that several surfaces cannot have.
+/// Why an option is refused that a table of several surfaces cannot have, also one of a single
+/// surface that --csv asks for.
+constexpr const char* takes_one_surface =
+    "takes one surface, not a table of several; name one file and leave out --csv";
+
+/// Throws InvalidInput if an option is given that a table of several surfaces cannot have.
 void require_options_of_one(const Session& session,
                             const std::vector<std::pair<bool, const char*>>& others);
 

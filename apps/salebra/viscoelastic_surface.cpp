@@ -57,8 +57,8 @@ RoughContact contact_of(const ViscoelasticArguments& arguments, std::vector<std:
           "does not relax; give it [[relaxation]] tables, or use `salebra oscillate`");
   if (!contact.surface.periodic)
     session.warn("the surface is continued periodically, because it is not stated to repeat");
-  const auto pressure = arguments.point.nominal_pressure(contact.surface.grid);
-  contact.point = pressure                   ? at_pressure(*pressure)
+  contact.point = arguments.point.pressure   ? at_pressure(*arguments.point.pressure)
+                  : arguments.point.force    ? at_force(*arguments.point.force)
                   : arguments.point.mean_gap ? at_mean_gap(*arguments.point.mean_gap)
                                              : at_indentation(*arguments.point.indentation);
   return contact;

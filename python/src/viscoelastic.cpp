@@ -311,7 +311,7 @@ prony : PronySeries
 time : array_like
     s, increasing.
 pressure, indentation, force : float or array_like, optional
-    One of them, Pa, m or N: a value at each time, or one that is held.
+    One of them, Pa, m or N: a value at each time, or one > 0 that is held. A load is >= 0, where 0 lifts the surface off; an indentation <= 0 holds it above the undeformed body.
 steps : int
     Straight steps between neighbouring times, even, >= 2; half as many give `indentation_error` and `pressure_error`.
 boundary : {"periodic", "free"}

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rough contact of a viscoelastic body along a path, and its periodic state under an oscillation.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -183,6 +185,29 @@ void check(const Surface& surface, const NormalContactOptions& options) {
           "must be infinite, because the body is linear");
 }
 
+// The indentation at which a contact is full and has no finite force, m; infinite for a body that
+// allows more.
+double full_indentation(const Surface& surface, const Body& body, Boundary boundary) {
+  return boundary == Boundary::periodic && body.stops_at_full_contact()
+             ? surface.heights.maxCoeff() - surface.heights.mean()
+             : std::numeric_limits<double>::infinity();
+}
+
+// Checks the values of a path here, because the elastic contact of a step has scaled ones.
+void check_values(const OperatingPoints& path, double full_indentation) {
+  const bool by_load = path.control != ControlQuantity::indentation;
+  const std::string_view name =
+      path.control == ControlQuantity::normal_force ? "force" : name_of(path.control);
+  if (path.values.size() == 1) require_positive(path.values.front(), name);
+  for (const double value : path.values) {
+    require(std::isfinite(value), name, value, "must be finite");
+    require(!by_load || value >= 0, name, value, "must be >= 0, because nothing pulls; 0: no load");
+    require(by_load || value < full_indentation, name, value,
+            fmt::format("must be below {} m, at which a periodic surface is in full contact",
+                        full_indentation));
+  }
+}
+
 // The elastic contacts of single steps.
 class NormalSteps {
  public:
@@ -334,7 +359,6 @@ class NormalCycles {
     held_force_ = force;
     stiffness_ = stiffness;
   }
-  /// 0: unlimited.
   void limit(double highest_indentation) { limit_ = highest_indentation; }
 
   static Field state_of(const MaxwellSpring& spring, const Field& displacement,
@@ -350,8 +374,7 @@ class NormalCycles {
     History history(spring_, start.topRows(surface_.grid.nx));
     history.values() = start.topRows(rows);
     indentation_ = start.row(rows).mean();
-    require(limit_ <= 0 || indentation_ + path_.amplitude < limit_, "normal_amplitude",
-            path_.amplitude,
+    require(indentation_ + path_.amplitude < limit_, "normal_amplitude", path_.amplitude,
             "m reaches full contact, where a periodic surface has no finite force; use a smaller "
             "amplitude or load");
     const std::vector<Index> cells = cells_in_contact();
@@ -440,7 +463,8 @@ class NormalCycles {
   const MaxwellSpring& spring_;
   const CyclePath& path_;
   Stretching step_;
-  double held_force_ = 0, stiffness_ = 0, limit_ = 0, indentation_ = 0;
+  double held_force_ = 0, stiffness_ = 0, indentation_ = 0,
+         limit_ = std::numeric_limits<double>::infinity();
   std::vector<double> force_;
   std::vector<ContactSet> sets_;
   std::vector<Index> recorded_;
@@ -677,8 +701,7 @@ class SteadyState {
     const Field before = state_;
     NormalCycles normal(steps_, surface_, spring_, path);
     if (held_stiffness_ > 0) normal.hold_force(held_force_, held_stiffness_);
-    if (options_.contact.boundary == Boundary::periodic && body_.stops_at_full_contact())
-      normal.limit(steps_.highest() - surface_.heights.mean());
+    normal.limit(full_indentation(surface_, body_, options_.contact.boundary));
     const SearchReport found = find_periodic(
         state_, normal, path.amplitude > 0 ? path.amplitude : rest_indentation_, lost, options_);
     // The search of the next frequency shall not start from where this one ended.
@@ -880,8 +903,7 @@ ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
   for (std::size_t i = 0; i < time.size(); ++i)
     require(std::isfinite(time[i]) && (i == 0 || time[i] > time[i - 1]), "time", time[i],
             "s must be finite and later than the time before");
-  for (const double value : path.values)
-    require(std::isfinite(value), name_of(path.control), value, "must be finite");
+  check_values(path, full_indentation(surface, body, options.contact.boundary));
   const PathSteps steps(surface, body, relaxation, time, path, options);
   const ViscoelasticPath coarse = steps.run(options.steps / 2);
   ViscoelasticPath fine = steps.run(options.steps);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/study/body_file.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,9 +59,18 @@ std::array<double, 3> read_direction(TomlTable& table, const char* key) {
 }
 
 Body read_anisotropic(TomlTable table) {
-  const auto modulus = [&](const char* key) { return table.required_quantity(key, pressure); };
+  const auto modulus = [&](const char* key) {
+    table.check(table.has(key), key,
+                "is missing; a cubic body needs c11, c12 and c44, a transversely isotropic one "
+                "c11, c33, c13, c44 and c66, any other stiffness");
+    return table.required_quantity(key, pressure);
+  };
   const bool matrix = table.has("stiffness");
-  if (!matrix && !table.has("c12")) {
+  if (!matrix && (table.has("c33") || table.has("c13") || table.has("c66"))) {
+    table.check(
+        !table.has("c12"), "c12",
+        "is of a cubic body, but c33, c13 and c66 are of a transversely isotropic one; give "
+        "one of them, the latter with c66 = (c11 - c12)/2");
     const TransverseStiffness stiffness{modulus("c11"), modulus("c33"), modulus("c13"),
                                         modulus("c44"), modulus("c66")};
     table.require_no_other_keys();
@@ -77,6 +87,10 @@ Body read_anisotropic(TomlTable table) {
     stiffness = AnisotropicStiffness::cubic(modulus("c11"), modulus("c12"), modulus("c44"));
   }
   if (table.has("normal") || table.has("x")) {
+    for (const auto& [given, other] : {std::pair("normal", "x"), {"x", "normal"}})
+      table.check(table.has(other), given,
+                  std::string("is given without ") + other +
+                      "; give both, such as normal = [1, 1, 0] and x = [0, 0, 1]");
     const auto normal = read_direction(table, "normal"), x = read_direction(table, "x");
     stiffness = table.located([&] { return stiffness.of_surface(normal, x); });
   }
@@ -140,7 +154,11 @@ Body detail::read_body_table(TomlTable& table, const std::filesystem::path& fold
   for (const char* key : {"datum", "layer", "base", "graded", "anisotropic"})
     table.check(!table.has(key), key, "belongs into the file of `file`; move it there");
   table.require_no_other_keys();
-  return table.located([&] { return read_body(folder / *file); });
+  try {
+    return read_body(folder / *file);
+  } catch (const InvalidInput& error) {
+    table.fail("file", error);
+  }
 }
 
 ViscoelasticBody read_viscoelastic_body(const std::filesystem::path& file) {

@@ -105,6 +105,12 @@ void TomlTable::fail(std::string_view key, const std::string& message) const {
   throw InvalidInput(fmt::format("{}:{}: {}", file_, line_of(key), path_of(key)), message);
 }
 
+void TomlTable::fail(std::string_view key, const InvalidInput& refusal) const {
+  throw InvalidInput(
+      fmt::format("{}:{}: {}: {}", file_, line_of(key), path_of(key), refusal.field()),
+      refusal.statement());
+}
+
 void TomlTable::check(bool ok, std::string_view key, const std::string& message) const {
   if (!ok) fail(key, message);
 }

@@ -44,6 +44,8 @@ class TomlTable {
 
   /// Throws InvalidInput that names the line of the key.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  /// Throws the refusal of the file that the key names, behind the line of the key.
+  [[noreturn]] void fail(std::string_view key, const InvalidInput& refusal) const;
   void check(bool ok, std::string_view key, const std::string& message) const;
   /// Runs a check of the library. If it throws, adds to its error the file, and the line of the key
   /// that the error names.

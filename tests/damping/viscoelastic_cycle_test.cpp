@@ -8,6 +8,8 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
+#include <string>
+#include <vector>
 
 #include "../contact/normal/rough_surface.hpp"
 
@@ -349,6 +351,45 @@ TEST_CASE("A frequency without a steady state has no numbers, and the others kee
                               found[1].mean_force, found[1].contact_area_max})
     CHECK(std::isnan(number));
   CHECK(found[1].samples.empty());
+}
+
+TEST_CASE(
+    "A load of a path may be lifted but not pull, and an indentation stays below full contact",
+    "[viscoelastic_cycle]") {
+  const RoughContact contact;
+  const auto path = [&](ControlQuantity control, const std::vector<double>& values) {
+    std::vector<double> times(values.size());
+    for (std::size_t k = 0; k < times.size(); ++k) times[k] = tau * static_cast<double>(k);
+    return viscoelastic_path(contact.surface, rubber, standard_solid, times, {control, values},
+                             {.steps = 2});
+  };
+  using Catch::Matchers::Contains, Catch::Matchers::StartsWith;
+  for (const double value : {-5e3, 0.0}) {
+    CHECK_THROWS_WITH(path(ControlQuantity::pressure, {value}),
+                      StartsWith("pressure: ") && Contains("must be a finite number > 0"));
+    CHECK_THROWS_WITH(path(ControlQuantity::normal_force, {value}), StartsWith("force: "));
+    CHECK_THROWS_WITH(path(ControlQuantity::indentation, {value}), StartsWith("indentation: "));
+  }
+  CHECK_THROWS_WITH(path(ControlQuantity::pressure, {4e4, -4e4}),
+                    StartsWith("pressure: -40000 must be >= 0"));
+  CHECK_THROWS_WITH(path(ControlQuantity::normal_force, {1, -1}), StartsWith("force: -1 must"));
+  CHECK(path(ControlQuantity::pressure, {4e4, 0}).points.back().force == 0);
+
+  // The elastic contacts of the steps have values that are larger by up to G(0)/G∞ = 4.
+  const double full = contact.surface.heights.maxCoeff() - contact.surface.heights.mean(),
+               depth = contact.rest.indentation;
+  const auto raised = path(ControlQuantity::indentation, {depth, -depth});
+  CHECK(raised.points.back().indentation == Approx(-depth));
+  CHECK(raised.points.back().force == 0);
+  CHECK(path(ControlQuantity::indentation, {0.9 * full}).converged);
+  try {
+    path(ControlQuantity::indentation, {depth, 1.01 * full});
+    FAIL("full contact was not refused");
+  } catch (const InvalidInput& refusal) {
+    CHECK(std::stod(refusal.value()) == Approx(1.01 * full));
+    CHECK_THAT(refusal.constraint(), StartsWith("must be below "));
+    CHECK(std::stod(refusal.constraint().substr(14)) == Approx(full));
+  }
 }
 
 TEST_CASE("What has no meaning on a viscoelastic body is refused", "[viscoelastic_cycle]") {

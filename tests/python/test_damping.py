@@ -534,7 +534,15 @@ def test_creep_is_the_elastic_contact_at_the_creep_compliance(tmp_path: Path, pr
     answer = program("viscoelastic", tmp_path / "tread.h5", "--body", file, "--pressure", "50kPa", "--creep", ",".join(map(str, time)))
     for name in ("time", "pressure", "force", "indentation", "indentation_error", "mean_gap", "contact_area_fraction"):
         assert answer[name] == pytest.approx(getattr(creep, name).tolist(), rel=1e-12), name
-    for given, message in ({}, "path"), ({"pressure": [1e4, 2e4]}, "pressure"), ({"pressure": 1e4, "steps": 3}, "steps"):
+    for given, message in (
+        ({}, "path"),
+        ({"pressure": [1e4, 2e4]}, "pressure"),
+        ({"pressure": 1e4, "steps": 3}, "steps"),
+        ({"pressure": -5e4}, "pressure: -50000 must be a finite number > 0"),
+        ({"force": -1.0}, "force: -1 must be a finite number > 0"),
+        ({"pressure": [5e4, 5e4, 0.0, 0.0, -5e4]}, "pressure: -50000 must be >= 0"),
+        ({"indentation": 1e-3}, "indentation: 0.001 must be below"),
+    ):
         with pytest.raises(salebra.InvalidInput, match=message):
             salebra.viscoelastic_path(surface, rubber, prony, time, **given)
 

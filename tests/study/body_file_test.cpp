@@ -85,11 +85,25 @@ TEST_CASE("A file describes crystals by constants or by all stiffnesses", "[body
   CHECK_THROWS_WITH(file.read("[anisotropic]\nstiffness = [[1, 2], [2, 3]]\n"),
                     Contains("6 rows of 6"));
   CHECK_THROWS_WITH(file.read(rows + "]\nc11 = 1\n"), Contains("c11"));
-  CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1, 0]\n"), Contains("x"));
+  CHECK_THROWS_WITH(file.read(cube + "normal = [0, 0, 0]\n"),
+                    Contains(":5: anisotropic.normal: is given without x; give both"));
+  CHECK_THROWS_WITH(file.read(cube + "x = [0, 0, 1]\n"),
+                    Contains(":5: anisotropic.x: is given without normal"));
+  CHECK_THROWS_WITH(file.read(cube + "x = [0, 0, 1]\nnormal = [0, 0, 0]\n"),
+                    Contains(":6: anisotropic.normal: 0 is its length, which must be > 0"));
   CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1]\nx = [0, 0, 1]\n"),
                     Contains(":5:") && Contains("three numbers"));
   CHECK_THROWS_WITH(file.read(cube + "normal = [1, 1, 0]\nx = [1, 0, 0]\n"),
                     Contains(":6:") && Contains("perpendicular"));
+  // The kind of body follows from its constants; with too few of them all are named.
+  for (const std::string constants : {"", "c11 = 3\n", "c44 = 1\nc11 = 3\n"})
+    CHECK_THROWS_WITH(file.read("[anisotropic]\n" + constants),
+                      Contains("is missing; a cubic body needs c11, c12 and c44"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 3\nc44 = 1\n"), Contains(".c12: is missing"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 3\nc33 = 3\nc44 = 1\nc66 = 1\n"),
+                    Contains(".c13: is missing; a cubic body"));
+  CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 3\nc33 = 3\nc12 = 1\nc13 = 1\nc44 = 1\n"),
+                    Contains(":4: anisotropic.c12: is of a cubic body") && Contains("c66 ="));
   CHECK_THROWS_WITH(file.read("[anisotropic]\nc11 = 2\nc12 = 3\nc44 = 1\n"),
                     Contains("stiffness") && Contains("positive definite"));
 }

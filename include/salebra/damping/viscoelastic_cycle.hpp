@@ -83,7 +83,7 @@ struct ViscoelasticPathOptions {
 ///         viscoelastic_path(surface, rubber, {1, {{3, 0.02}}}, std::vector{0.0, 0.01, 0.1},
 ///                           {ControlQuantity::pressure, {1e5}});
 /// The value at the first time is reached at once, with the unrelaxed response; between the times
-/// the value is straight. A value <= 0 means no load or, for an indentation, a surface above the
+/// the value is straight. A load of 0 lifts the surface off; an indentation <= 0 holds it above the
 /// undeformed body.
 /// body        relaxed response; any body under a periodic surface, a half-space also under a free
 ///             one
@@ -91,7 +91,7 @@ struct ViscoelasticPathOptions {
 /// time        s, increasing, at least one value; displacements are straight within the steps
 ///             between the times, and errors are of second order in the steps. `steps` and steps/2
 ///             are both computed; the change is the error, three times that of a second-order rule
-/// path        pressure, force or indentation at each time, or one value that is held
+/// path        pressure >= 0, force >= 0 or indentation at each time, or one value > 0 that is held
 /// throws      InvalidInput for arguments that violate these conditions or those of press(), for a
 ///             finite hardness and for a mean gap; Interrupted if on_progress says stop
 /// cost        3/2 · steps · times contacts
