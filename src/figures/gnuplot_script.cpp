@@ -210,8 +210,8 @@ class PanelScript {
     if (panel.equal_scales && x_.low && x_.high && y_.low && y_.high)
       wide = std::min(wide, layout.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low));
     const double middle = left() + wide / 2;
-    title_ = wrapped(panel.title,
-                     2 * std::min(middle, layout.width - middle) / layout.mean_character());
+    title_ =
+        wrapped(panel.title, 2 * std::min(middle, layout.width - middle) / layout.mean_character());
   }
 
   /// Whether the panel of this script, right below, has the same axis x.
