@@ -204,14 +204,6 @@ class PanelScript {
     y_label_ = wrapped(y_.label, high);
     if (right_) right_label_ = wrapped(right_->label, high);
     if (raster_) scale_label_ = wrapped(raster_->scale.label, high);
-    // The title is in the middle of the frame, which is not that of the panel; the frame of a map
-    // is as wide as its scale asks, at the left.
-    double wide = layout.width - left() - right();
-    if (panel.equal_scales && x_.low && x_.high && y_.low && y_.high)
-      wide = std::min(wide, layout.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low));
-    const double middle = left() + wide / 2;
-    title_ =
-        wrapped(panel.title, 2 * std::min(middle, layout.width - middle) / layout.mean_character());
   }
 
   /// Whether the panel of this script, right below, has the same axis x.
@@ -243,6 +235,14 @@ class PanelScript {
   /// Chooses the places of names and legend in a frame with this room on the left, in pixels.
   void arrange(double left) {
     width_ = layout_.width - left - right();
+    // The title is in the middle of the frame, which is not that of the panel; the frame of a map
+    // is as wide as its scale asks, at the left.
+    double wide = width_;
+    if (panel_.equal_scales && x_.low && x_.high && y_.low && y_.high)
+      wide = std::min(wide, layout_.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low));
+    const double middle = left + wide / 2;
+    title_ = wrapped(panel_.title,
+                     2 * std::min(middle, layout_.width - middle) / layout_.mean_character());
     find_obstacles();
     place_names();
   }

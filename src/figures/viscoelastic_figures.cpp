@@ -23,15 +23,15 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                 .caption = "An oscillating contact of a viscoelastic body.",
                 .columns = 2};
   const ViscoelasticDamping& last = losses.back().damping;
-  figure.panels.push_back({.title = "W = " + value_text(last.work_per_cycle, "J") +
-                                    ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
-                                    value_text(values.back(), x.unit),
-                           .caption =
-                               "Energy lost in a cycle and its causes, beside the loss of "
-                               "an elastic body of the relaxed modulus; γ is that of the total.",
-                           .x = x,
-                           .y = axis_of("work_per_cycle", true, "loss W"),
-                           .legend = Legend::top_left});
+  figure.panels.push_back(
+      {.title = "W = " + value_text(last.work_per_cycle, "J") +
+                ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
+                value_text(values.back(), x.unit),
+       .caption = "Energy lost in a cycle and its causes, beside the loss of "
+                  "an elastic body of the relaxed modulus. γ is that of the tangential motion.",
+       .x = x,
+       .y = axis_of("work_per_cycle", true, "loss W"),
+       .legend = Legend::top_left});
   figure.panels.back().y.prefix_of = last.work_per_cycle;
   figure.panels.back().curves = {
       curve("material, normal", "normal_material_work",
