@@ -140,7 +140,10 @@ DisplayAxis display_axis(const Axis& axis, const std::vector<std::span<const dou
 
 void set_linear_tics(DisplayAxis& axis, int labels) {
   if (axis.logarithmic || !axis.low || !axis.high || !(*axis.low < *axis.high)) return;
-  const double step = round_step((*axis.high - *axis.low) / labels);
+  double step = round_step((*axis.high - *axis.low) / labels);
+  // A scale needs two numbers, and a range about zero may have one multiple of the step only.
+  while (std::floor(*axis.high / step) - std::ceil(*axis.low / step) < 1)
+    step = round_step(step / 2.6);  // from 5 to 2, from 2 to 1, from 1 to 0.5
   axis.tics = fmt::format("{:.9g}", step);
   axis.longest_tic = 0;
   for (double k = std::ceil(*axis.low / step); k <= *axis.high / step; ++k)
