@@ -59,6 +59,19 @@ void judge_all(std::span<const BoundDamping> results) {
   }
 }
 
+std::vector<Assumptions> assumptions_of(std::span<const BoundDamping> results) {
+  judge_all(results);
+  std::vector<Assumptions> assumptions;
+  for (const BoundDamping& one : results)
+    if (one.assumptions) assumptions.push_back(*one.assumptions);
+  return assumptions;
+}
+
+bool follow_slip(std::span<const BoundDamping> results) {
+  return std::ranges::any_of(results,
+                             [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
+}
+
 void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given) {
   const std::string why = why_loss_unknown(motion, known(parameters), force_given);
   if (!why.empty()) warn_user("the loss is unknown: " + why);
@@ -132,14 +145,9 @@ BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
 
 /// The validity of losses as they are described: where they include slip, slip is no assumption.
 std::string validity_of_losses(std::span<const BoundDamping> losses) {
-  judge_all(losses);
-  std::vector<Assumptions> assumptions;
-  for (const BoundDamping& one : losses)
-    if (const auto judged = one.judged().assumptions) assumptions.push_back(*judged);
+  const std::vector<Assumptions> assumptions = assumptions_of(losses);
   if (assumptions.empty()) return std::string(name_of(Validity::not_checked));
-  const bool slips = std::ranges::any_of(
-      losses, [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
-  return std::string(name_of(validity_of(verdicts_of(assumptions, slips))));
+  return std::string(name_of(validity_of(verdicts_of(assumptions, follow_slip(losses)))));
 }
 
 void bind_damping_result(nb::module_& m) {

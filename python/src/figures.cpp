@@ -76,6 +76,7 @@ Figure drawn(const BoundDampingCurve& curve) {
   Figure figure = figure_of(curve.coordinate, curve.values,
                             std::vector<DampingResult>(curve.results.begin(), curve.results.end()));
   figure.caption += curve.setting;
+  state_validity(figure, assumptions_of(curve.results), follow_slip(curve.results));
   return figure;
 }
 

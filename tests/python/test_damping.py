@@ -181,6 +181,11 @@ def test_a_damping_curve_is_its_points() -> None:
     curve = salebra.damping_curve(law, [DRAG], force=forces)
     single = [salebra.relaxation_damping(law, DRAG, force=force).damping_constant for force in forces]
     assert [point.damping_constant for point in curve] == single
+    # A picture says what the result says of itself.
+    assert curve.validity == "not checked" and "valid" not in curve.figure().panels[1].title
+    motion = salebra.EqualFrequency(normal_amplitude=1e-8, tangential_amplitude=1e-6, phase=math.pi / 2, frequency=1e3)
+    slipping = salebra.damping_curve(law, [motion], force=forces, parameters=salebra.ContactParameters(friction_coefficient=0.3))
+    assert slipping.validity == "not valid" and "(not valid: " in slipping.figure().panels[1].title
 
 
 def test_a_trajectory_meets_the_theorem_at_second_order() -> None:

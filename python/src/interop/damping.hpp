@@ -7,6 +7,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "interop/curves.hpp"
 
@@ -39,6 +40,10 @@ struct BoundDamping : DampingResult {
 /// Judges the assumptions of all results that need it, in parallel. The caller must hold the
 /// interpreter's lock.
 void judge_all(std::span<const BoundDamping> results);
+/// The assumptions of all results that have them. The caller must hold the interpreter's lock.
+std::vector<Assumptions> assumptions_of(std::span<const BoundDamping> results);
+/// Whether a result includes slip, which is then no assumption.
+bool follow_slip(std::span<const BoundDamping> results);
 
 /// Damping results for several values of one quantity. Pickles store them as
 /// CurveOf<JudgedDamping>.
