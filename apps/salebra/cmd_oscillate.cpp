@@ -232,13 +232,16 @@ std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std:
       const std::optional<double> ratio = outcome.over(reference);
       return ratio ? fmt::format("{:.4f}", *ratio) : std::string("no loss");
     };
-    rows.push_back({shapes[k], format_quantity(outcome.work_per_cycle(), Dimension::energy),
+    const auto loss = [&](double work) {
+      return std::abs(work) > outcome.uncertain_loss() ? format_quantity(work, Dimension::energy)
+                                                       : std::string("no loss");
+    };
+    rows.push_back({shapes[k], loss(outcome.work_per_cycle()),
                     text(outcome.intervals.small_amplitude_work),
                     text(outcome.intervals.work_by_force),
                     fmt::format("{:.1e}", outcome.work_per_cycle() / outcome.elastic_energy())});
     if (slips)
-      rows.back().insert(rows.back().begin() + 1,
-                         format_quantity(outcome.frictional->work_per_cycle, Dimension::energy));
+      rows.back().insert(rows.back().begin() + 1, loss(outcome.frictional->work_per_cycle));
   }
   return to_table(rows, 2, true);
 }

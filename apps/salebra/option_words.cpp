@@ -48,7 +48,7 @@ std::string in_options(std::string_view message) {
 
 std::string with_option(const InvalidInput& refusal) {
   // A library cannot name the command for a body that relaxes, which an elastic command refuses.
-  if (refusal.field().ends_with("relaxation"))
+  if (refusal.field().ends_with("relaxation") && refusal.statement().starts_with("an elastic"))
     return std::string(refusal.what()) + " (salebra viscoelastic SURFACE --body FILE)";
   const std::string option = option_of(refusal.field());
   return option.empty() ? refusal.what() : option + ": " + refusal.statement();

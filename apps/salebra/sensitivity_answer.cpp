@@ -70,10 +70,10 @@ std::string sensitivity_text(const StudySensitivity& found) {
                                                 : with_interval(output->at_pressures[middle]));
     }
   }
-  std::string text = fmt::format(
-      "Sensitivity d ln(result)/d ln(parameter) at {}, with {}\n",
-      format_quantity(found.pressures[middle], Dimension::pressure, 3),
-      found.surfaces > 1 ? "95 % intervals over the surfaces" : "the change at twice the step");
+  std::string text =
+      fmt::format("Sensitivity d ln(result)/d ln(parameter) at {}, with {}\n",
+                  format_quantity(found.pressures[middle], Dimension::pressure, 3),
+                  found.surfaces > 1 ? "95 % intervals over the surfaces" : "numerical errors");
   text += to_table(rows, 2, true);
   for (const std::string& reason : found.left_out) text += "  left out: " + reason + "\n";
   if (!outputs.empty())

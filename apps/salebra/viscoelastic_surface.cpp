@@ -256,8 +256,10 @@ void lose_of_files(ViscoelasticArguments arguments, const std::vector<std::strin
       "nominal_area", true);
   add("W/A0, nJ per mm²", "work_per_cycle_per_area", "J/m^2", 1e3, "work_per_cycle", "nominal_area",
       true);
-  add("error, %", "work_per_cycle_relative_error", "1", 100, "work_per_cycle_error",
+  add("error of W, %", "work_per_cycle_relative_error", "1", 100, "work_per_cycle_error",
       "work_per_cycle", false);
+  add("error of γ, %", "damping_constant_relative_error", "1", 100, "work_per_cycle_error",
+      "tangential_work", false);
   add("tangential, %", "tangential_share", "1", 100, "tangential_work", "work_per_cycle", true);
   add("largest A/A0", "contact_area_fraction_max", "1", 1, "contact_area_max", "nominal_area",
       true);

@@ -169,7 +169,8 @@ figures::Figure sliding_figure(const ContactLaw& law, const OperatingPoint& poin
                                const Drag& motion, double friction_coefficient,
                                const SteadySliding& state) {
   constexpr int count = 61;
-  const auto [low, high] = std::minmax(motion.drag_velocity, state.critical_velocity);
+  const double other = state.critical_velocity > 0 ? state.critical_velocity : motion.drag_velocity;
+  const auto [low, high] = std::minmax(motion.drag_velocity, other);
   const double from = low / 10, ratio = 30 * high / low;
   std::vector<double> velocities;
   for (int k = 0; k < count; ++k) velocities.push_back(from * std::pow(ratio, k / (count - 1.0)));

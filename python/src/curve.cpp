@@ -188,8 +188,10 @@ void bind_fit(nb::module_& m) {
           }
           // The curve has no noise, so that the range of l is that of parts of the window.
           const WindowSensitivity parts = window_sensitivity(curve, drawn.window, chosen);
-          drawn.decay_length_low = parts.decay_length_min;
-          drawn.decay_length_high = parts.decay_length_max;
+          constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+          const bool several = parts.windows > 1;
+          drawn.decay_length_low = several ? parts.decay_length_min : unknown;
+          drawn.decay_length_high = several ? parts.decay_length_max : unknown;
           figures::Figure figure = figures::figure_of(curve, drawn);
           figure.caption +=
               " The range of the decay length is that of fits to parts of the window, not the 95 % "

@@ -106,9 +106,8 @@ Figure figure_of(const ViscoelasticPath& path) {
   };
   const std::vector<double> time = column(&P::time);
   const Axis x = axis_of("time", spans_decades(time));
-  const bool held = std::ranges::all_of(path.points, [&](const P& point) {
-    return point.indentation == path.points.front().indentation;
-  });
+  // What was prescribed has no error.
+  const bool held = !path.points.empty() && std::isnan(path.points.front().indentation_error);
   Figure figure{
       .kind = "viscoelastic_path",
       .caption =

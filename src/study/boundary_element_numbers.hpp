@@ -44,7 +44,8 @@ class BoundaryElementNumbers {
   bool run(std::size_t tasks,
            const std::function<void(std::size_t task, const Progress& going_on)>& task) const;
   // Numbers of each surface (second index) of each variant; those of contacts that did not converge
-  // are NaN. Empty if progress says stop, or without variants. In parallel over all; same bits for any number of threads.
+  // are NaN. Empty if progress says stop, or without variants. In parallel over all; same bits for
+  // any number of threads.
   std::vector<std::vector<OfSurface>> of(const std::vector<StudyVariant>& variants) const;
 
  private:

@@ -26,6 +26,7 @@ void GapGradient::solve(const Surface& surface, const Body& body,
     const PunchStiffness found = punch_stiffness(
         contact_set(state), surface.grid, body,
         {.tolerance = std::sqrt(options.tolerance), .on_progress = options.on_progress}, &punch);
+    if (found.termination == Termination::interrupted) throw Interrupted("study: interrupted");
     if (!found.converged()) return;
     contact.sample.normal_stiffness = found.normal_stiffness;
     const double sum = punch.sum();

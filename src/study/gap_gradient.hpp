@@ -13,8 +13,8 @@ namespace salebra::detail {
 // given force and with the pressure w of a flat punch on the contact set,
 //     d⟨gap⟩ = Σ w dh/Σ w − ⟨dh⟩,
 // so that a change needs no contact of its own: the pressures dp of the changed contact meet
-// G dp = dh − dD on the set and Σ dp = 0, with the approach dD, and Gw = 1 there. Cells that enter or leave change the gap
-// in second order.
+// G dp = dh − dD on the set and Σ dp = 0, with the approach dD, and Gw = 1 there. Cells that enter or
+// leave change the gap in second order.
 class GapGradient {
  public:
   // Solves contacts at more loads, each with one punch solve; those that do not converge are left

@@ -139,11 +139,18 @@ BoundaryElementNumbers::OfSurface LawNumbers::numbers(const StudyConfiguration& 
   BoundaryElementNumbers::OfSurface numbers;
   for (const double pressure : configuration.pressures) {
     const double force = pressure * area_, load = std::log(force);
-    // In full contact there is no law.
-    const bool known = load < loads.back() + 1e-2;
-    const auto [value, slope] = gap.at(known ? load : unknown);
+    const double covered = std::exp(area.at(load).value);
+    const auto [value, slope] = gap.at(load);
+    // There is no law where contacts did not converge, and none near full contact, where K_t/K was
+    // not compared with stick solves.
+    constexpr double beyond = 1e-2, largest_area = 0.8;
+    if (!(load > loads.front() - beyond && load < loads.back() + beyond && covered < largest_area &&
+          value > 0 && slope < 0)) {
+      for (std::vector<double>& output : numbers) output.push_back(unknown);
+      continue;
+    }
     DampingResult loss;
-    if (law && known) try {
+    if (law) try {
         loss = relaxation_damping(*law, at_force(force), configuration.motion, options);
         add_slip(loss, *law, motion_of(configuration.motion), configuration.known);
         if (!loss.converged) loss.forget();
@@ -152,7 +159,7 @@ BoundaryElementNumbers::OfSurface LawNumbers::numbers(const StudyConfiguration& 
       }
     const std::array<double, BoundaryElementNumbers::outputs.size()> values{
         value,
-        std::exp(area.at(known ? load : unknown).value),
+        covered,
         -force / slope,
         -modulus_ratio_ * force / slope,
         loss.work_per_cycle,

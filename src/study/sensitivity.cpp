@@ -292,6 +292,8 @@ EnsembleMean derivative(const Sides& sides, std::size_t output, std::size_t pres
     double square = std::pow(slope_of(2).mean - slope.mean, 2);
     for (std::size_t pair = 4; pair < sides.size(); pair += 2)
       square += 3 * std::pow(slope_of(pair).mean - slope.mean, 2);
+    // No number without its error.
+    if (!std::isfinite(square)) return {};
     slope.low = slope.mean - std::sqrt(square), slope.high = slope.mean + std::sqrt(square);
   }
   return slope;

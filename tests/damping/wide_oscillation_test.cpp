@@ -366,6 +366,7 @@ TEST_CASE("Where the contacts of the first grid fail, those of the second give n
   int stopped = 0;
   for (most = 1;; most += std::max(1, most / 4)) {
     CAPTURE(most);
+    REQUIRE(most < 100000);
     detail::WideOscillation wide = oscillation();
     calls = 0;
     if (losses_on(wide, stops).without_slip.work > 0) break;

@@ -278,6 +278,32 @@ TEST_CASE("A parameter at its limit is left out of the responses, with the reaso
   CHECK_THROWS_WITH(study_sensitivity(study_of(32, {1, 2}), {.step = 1}), Catch::Contains("step"));
 }
 
+TEST_CASE("Sensitivities near full contact have their sign and limits, or are not known",
+          "[sensitivity]") {
+  // Loads from light ones to full contact, where a smooth law of the gap no longer holds.
+  for (const std::vector<std::uint64_t>& seeds : {std::vector<std::uint64_t>{1}, {1, 2, 3, 4}}) {
+    StudyConfiguration study = study_of(32, seeds);
+    study.pressures = {4e6, 20e6, 100e6, 300e6, 500e6, 1e9, 3e9};
+    const StudySensitivity found = study_sensitivity(study, {.waves = false});
+    int known = 0, all = 0;
+    for (const ParameterSensitivity& parameter : found.parameters)
+      for (const OutputSensitivity& output : parameter.outputs)
+        for (const EnsembleMean& slope : output.at_pressures) {
+          ++all;
+          if (std::isnan(slope.mean)) continue;
+          ++known;
+          CAPTURE(parameter.parameter, output.output, seeds.size());
+          CHECK(std::isfinite(slope.low));
+          CHECK(std::isfinite(slope.high));
+        }
+    CHECK(known > all / 4);
+    CHECK(known < all);
+    const OutputSensitivity* gap = found.find("pressure", "mean_gap");
+    REQUIRE(gap);
+    for (const EnsembleMean& slope : gap->at_pressures) CHECK(!(slope.mean >= 0));
+  }
+}
+
 TEST_CASE("Sensitivities that are stopped say so and have no numbers", "[sensitivity]") {
   int calls = 0;
   const StudySensitivity found = study_sensitivity(
