@@ -168,7 +168,7 @@ AssumptionReport known_assumptions(const ViscoelasticArguments& arguments,
   if (area > 0)
     report.others.push_back(
         {.name = "open_contact",
-         .verdict = Verdict::holds,
+         .verdict = area < contact.surface.grid.area() ? Verdict::holds : Verdict::broken,
          .assumption = "below full contact",
          .here = fmt::format("{:.3g} of the area", area / contact.surface.grid.area())});
   return report;

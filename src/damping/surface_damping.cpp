@@ -280,8 +280,8 @@ class Load {
 
   /// Adds W with friction, −∫K_t w' dζ (w: loss of one spring, spring_loss.hpp). The range of the
   /// oscillation uses its own contacts. Below it are pieces of at most 1.5 F/K, with contacts of
-  /// other loads where these lie, and further contacts elsewhere: over a wider piece no parabola with a random function of one variance describes K,
-  /// since K and its variance fall with the load. Adjacent pieces share a contact and w is
+  /// other loads where these lie, and further contacts elsewhere: over a wider piece no parabola with
+  /// a random function of one variance describes K, since K and its variance fall with the load. Adjacent pieces share a contact and w is
   /// continuous, so K at their border cancels. Springs below the last piece carry the force F and
   /// add less than F times the largest |w'|. Pieces are added until this bound is 0.3 % of W, and
   /// the bound counts as an error by the number of intervals. No piece is needed if springs slip so
@@ -772,7 +772,7 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
   // First every load without slip, and then slip, which uses the contacts of all loads.
   const int all_tasks = static_cast<int>(open.size() + narrow);
   int begun = 0;
-  const auto for_loads = [&](std::size_t count, const auto& body) {
+  const auto for_loads = [&](std::size_t count, const auto& task) {
     detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
                              const int done = begun + loop.finished();
                              return !options.on_progress ||
@@ -785,7 +785,7 @@ void solve_on(const Surface& fine, const Body& body, const std::vector<std::vect
     };
     // The highest loads take longest, so they are solved first.
     loop.run(static_cast<Index>(count),
-             [&](Index turn) { body(count - 1 - static_cast<std::size_t>(turn), progress); });
+             [&](Index turn) { task(count - 1 - static_cast<std::size_t>(turn), progress); });
     if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
     begun += static_cast<int>(count);
   };

@@ -136,10 +136,11 @@ std::string validity_text(std::span<const AssumptionVerdict> verdicts) {
   const auto known = std::ranges::find(assumption_names(), worst.name, &AssumptionName::name);
   // "γ = µF/v: Coulomb friction, not a damper; at all loads" gives the reason in its middle.
   const std::string& here = worst.here;
-  const std::string reason(
-      known != assumption_names().end()
-          ? std::string(known->meaning)
-          : here.substr(here.find(": ") + 2, here.find(';') - here.find(": ") - 2));
+  std::string reason = worst.assumption;
+  if (known != assumption_names().end())
+    reason = known->meaning;
+  else if (const auto colon = here.find(": "); colon != std::string::npos)
+    reason = here.substr(colon + 2, here.find(';') - colon - 2);
   return fmt::format("{}: {}", name_of(validity), reason);
 }
 

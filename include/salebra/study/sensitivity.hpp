@@ -152,7 +152,7 @@ struct SensitivityOptions {
 /// damping_constant; those that are not known are left out.
 /// throws  InvalidInput for a parameter grid, adhesion, an option out of range, and wherever
 ///         run_study() does
-/// cost    by laws 0.7 to 2.6 times the study, and 3.4 times with slip in an oscillation: 10 to 30
+/// cost    by laws 1 to 3 times the study, and up to 10 times with slip in an oscillation: 10 to 30
 ///         contacts with K for a surface and, for each load, two contacts without K for each parameter
 ///         of shape and octave (four for one surface); otherwise two studies for each parameter and
 ///         octave (four for one surface)

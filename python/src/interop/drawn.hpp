@@ -29,8 +29,8 @@ nb::typed<nb::object, Result> with_figure(Result result, Draw draw) {
   return nb::borrow<nb::typed<nb::object, Result>>(made);
 }
 
-/// " Motion: 1 nm tangential and …, µ = 0.3, F = 10 N.", for the end of a caption. friction_coefficient: infinite for no slip. force: N; NaN if it
-/// is not constant.
+/// " Motion: 1 nm tangential and …, µ = 0.3, F = 10 N.", for the end of a caption.
+/// friction_coefficient: infinite for no slip. force: N; NaN if it is not constant.
 inline std::string setting_text(const std::string& motion, double friction_coefficient,
                                 double force) {
   std::string text = " Motion: " + motion;

@@ -94,8 +94,9 @@ class ExponentialLaw final : public ContactLaw {
 /// differences. K and F'' are the exact derivatives of the interpolant. The errors of F, K and F''
 /// are of order 4, 3 and 2 in the spacing of the samples (F'' jumps at the samples). If every
 /// sample has K_t, ln K_t is interpolated in the same way and modulus_ratio, which may be NaN, is
-/// not used; otherwise K_t = (G*/E*)K. The curve of a body that is no half-space takes only NaN. δ is the indentation of the samples, or −ū if a sample has no indentation; this
-/// only shifts δ. Samples that did not converge or have F = 0 are ignored.
+/// not used; otherwise K_t = (G*/E*)K. The curve of a body that is no half-space takes only NaN. δ
+/// is the indentation of the samples, or −ū if a sample has no indentation; this only shifts δ.
+/// Samples that did not converge or have F = 0 are ignored.
 ///
 /// Below the first sample (δ1, F1, K1, K_t1) the law is that of summits that separate one after the
 /// other, until the last of them opens like a sphere at δ_t:
