@@ -174,14 +174,14 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
 std::string setting_of(const DampingSolution& answer, std::string_view varied,
                        const AssumptionOptions& known) {
   const DampingResult& first = answer.results.front();
-  const auto& friction = known.friction_coefficient;
-  std::string text =
-      " Motion: " + figures::motion_text(answer.motions.front(), varied,
-                                         known.excursion.value_or(ContactParameters::unknown));
-  text += friction ? fmt::format(", µ = {:.3g}", *friction) : ", no slip";
-  if (varied != "force" && varied != "pressure" && varied != "mean_gap" && varied != "indentation")
-    text += ", F = " + format_quantity(first.force, Dimension::force, 4);
-  return text + fmt::format("; the mean {} is held.", name_of(first.hold));
+  constexpr double unknown = ContactParameters::unknown;
+  const bool loads =
+      varied == "force" || varied == "pressure" || varied == "mean_gap" || varied == "indentation";
+  return figures::setting_text(figures::motion_text(answer.motions.front(), varied,
+                                                    known.excursion.value_or(unknown)),
+                               known.friction_coefficient.value_or(unknown),
+                               loads ? unknown : first.force) +
+         fmt::format("; the mean {} is held.", name_of(first.hold));
 }
 
 // Draws one period of the motion if there is a single case; draws nothing for a motion without a

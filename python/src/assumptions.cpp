@@ -192,8 +192,9 @@ figures::Figure sliding_figure(const ContactLaw& law, const OperatingPoint& poin
   };
   mark(0, state.friction_coefficient);
   mark(1, state.relaxation_work + state.slip_work);
-  figure.caption += setting_text(figures::motion_text(motion, "excursion"), friction_coefficient,
-                                 state.mean_force);
+  figure.caption += figures::setting_text(figures::motion_text(motion, "excursion"),
+                                          friction_coefficient, state.mean_force) +
+                    ".";
   return figure;
 }
 

@@ -150,8 +150,9 @@ nb::typed<nb::object, CycleResult> simulation(
     double force = 0;
     for (const CycleSample& sample : result.samples)
       force += sample.normal_force / double(result.samples.size());
-    figure.caption = "The last period of a simulated oscillation." +
-                     setting_text(figures::motion_text(motion_of(motion)), friction, force);
+    figure.caption =
+        "The last period of a simulated oscillation." +
+        figures::setting_text(figures::motion_text(motion_of(motion)), friction, force) + ".";
     return figure;
   });
 }

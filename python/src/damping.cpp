@@ -314,11 +314,11 @@ InvalidInput
         BoundDampingCurve curve_of = over(cases, force.has_value());
         const bool loads = std::ranges::any_of(
             results, [&](const DampingResult& one) { return one.force != results.front().force; });
-        const double friction = known(parameters).friction_coefficient;
         curve_of.setting =
-            setting_text(figures::motion_text(described.front(), curve_of.coordinate),
-                         std::isnan(friction) ? std::numeric_limits<double>::infinity() : friction,
-                         loads ? ContactParameters::unknown : results.front().force);
+            figures::setting_text(figures::motion_text(described.front(), curve_of.coordinate),
+                                  known(parameters).friction_coefficient,
+                                  loads ? ContactParameters::unknown : results.front().force) +
+            ".";
         for (std::size_t i = 0; i < count; ++i)
           curve_of.results.push_back(
               assumptions ? to_be_judged(results[i], law, described[i], parameters, curve)

@@ -199,7 +199,8 @@ void bind_damping_of_trajectory(nb::module_& m) {
                                              mean_force](const TrajectoryDamping& drawn) {
           figures::Figure figure = figures::figure_of(trajectory, drawn);
           figure.caption +=
-              setting_text(motion_text_of(trajectory), friction_coefficient, mean_force);
+              figures::setting_text(motion_text_of(trajectory), friction_coefficient, mean_force) +
+              ".";
           return figure;
         });
       },

@@ -108,6 +108,14 @@ std::string motion_text(const Motion& motion, std::string_view varied, double ex
   return add_both(equal, "", "") + (frequency.empty() ? "" : "," + frequency);
 }
 
+std::string setting_text(const std::string& motion, double friction_coefficient, double force) {
+  std::string text = " Motion: " + motion;
+  text += std::isfinite(friction_coefficient) ? fmt::format(", µ = {:.3g}", friction_coefficient)
+                                              : ", no slip";
+  if (!std::isnan(force)) text += ", F = " + format_quantity(force, Dimension::force, 4);
+  return text;
+}
+
 std::string value_text(double value, const std::string& in) {
   if (std::isnan(value)) return "n/a";
   const auto [unit, factor] = prefixed(in, std::abs(value));

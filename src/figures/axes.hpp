@@ -23,6 +23,9 @@ Axis axis_of(std::string_view quantity, bool logarithmic = false, std::string_vi
 /// unknown numbers. excursion: of a slow shear, m; NaN: not known.
 std::string motion_text(const Motion& motion, std::string_view varied = {},
                         double excursion = std::numeric_limits<double>::quiet_NaN());
+/// " Motion: 1 nm tangential and …, µ = 0.3, F = 10 N" for the end of a caption.
+/// friction_coefficient: NaN or infinite for no slip. force: N; NaN if it is not constant.
+std::string setting_text(const std::string& motion, double friction_coefficient, double force);
 /// "25.3 nm", in a unit that may get a prefix.
 std::string value_text(double value, const std::string& unit);
 /// "25.3 nm (24.1 … 26.5)"; without the limits where they are unknown.

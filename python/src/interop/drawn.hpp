@@ -29,17 +29,6 @@ nb::typed<nb::object, Result> with_figure(Result result, Draw draw) {
   return nb::borrow<nb::typed<nb::object, Result>>(made);
 }
 
-/// " Motion: 1 nm tangential and …, µ = 0.3, F = 10 N.", for the end of a caption.
-/// friction_coefficient: infinite for no slip. force: N; NaN if it is not constant.
-inline std::string setting_text(const std::string& motion, double friction_coefficient,
-                                double force) {
-  std::string text = " Motion: " + motion;
-  text += std::isfinite(friction_coefficient) ? fmt::format(", µ = {:.3g}", friction_coefficient)
-                                              : ", no slip";
-  if (!std::isnan(force)) text += ", F = " + format_quantity(force, Dimension::force, 4);
-  return text + ".";
-}
-
 /// The half ranges and the period of a sampled motion, for captions.
 inline std::string motion_text_of(const SampledMotion& path) {
   const auto half_range = [](const std::vector<double>& values) {
