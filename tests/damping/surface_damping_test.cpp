@@ -801,6 +801,9 @@ TEST_CASE("Contacts of a sweep give the losses that the same contacts solved ane
   const auto anew = surface_damping(surface, material, motion, curves, options)[0];
   const auto begun =
       detail::surface_damping(surface, material, motion, curves, options, kept, 1e-9)[0];
+  // Other starts give other last digits: without the kept contacts all bits would be the same.
+  CHECK(!std::ranges::equal(begun, anew, {}, &SurfaceDamping::indentation,
+                            &SurfaceDamping::indentation));
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     CAPTURE(k);
     REQUIRE(anew[k].converged);
