@@ -193,11 +193,15 @@ double full_indentation(const Surface& surface, const Body& body, Boundary bound
              : std::numeric_limits<double>::infinity();
 }
 
+// The name of the argument that prescribes a path.
+std::string_view argument_of(const OperatingPoints& path) {
+  return path.control == ControlQuantity::normal_force ? "force" : name_of(path.control);
+}
+
 // Checks the values of a path here, because the elastic contact of a step has scaled ones.
 void check_values(const OperatingPoints& path, double full_indentation) {
   const bool by_load = path.control != ControlQuantity::indentation;
-  const std::string_view name =
-      path.control == ControlQuantity::normal_force ? "force" : name_of(path.control);
+  const std::string_view name = argument_of(path);
   if (path.values.size() == 1) require_positive(path.values.front(), name);
   for (const double value : path.values) {
     require(std::isfinite(value), name, value, "must be finite");
@@ -894,7 +898,7 @@ ViscoelasticPath viscoelastic_path(const Surface& surface, const Body& body,
                                    const ViscoelasticPathOptions& options) {
   check(surface, options.contact);
   require(!time.empty(), "time", time.size(), "values given; give at least 1");
-  require(path.values.size() == time.size() || path.values.size() == 1, name_of(path.control),
+  require(path.values.size() == time.size() || path.values.size() == 1, argument_of(path),
           path.values.size(), "values do not match the times; give one, or one for each");
   require(path.control != ControlQuantity::mean_gap, "mean_gap", path.values.front(),
           "cannot be prescribed along a path; give pressures, forces or indentations");
