@@ -127,15 +127,17 @@ std::vector<ViscoelasticCycle> cycles_of(const ViscoelasticArguments& arguments,
       cycles.push_back(
           viscoelastic_cycle(contact.surface, body, relaxation, motion, contact.point, options));
   }
-  if (const auto lost = std::ranges::count_if(cycles,
-                                              [](const ViscoelasticCycle& one) {
-                                                return one.converged() &&
-                                                       std::isnan(one.work_per_cycle);
-                                              });
+  if (const auto lost = std::ranges::count_if(
+          cycles,
+          [](const ViscoelasticCycle& one) {
+            return one.converged() &&
+                   (std::isnan(one.work_per_cycle) ||
+                    (std::isnan(one.damping_constant) && one.tangential_work != 0));
+          });
       lost > 0)
     session.warn(
         fmt::format("n/a at {} of {} motions: the error of the loss is not smaller than "
-                    "the loss; give more --steps",
+                    "the loss, or than its tangential part; give more --steps",
                     lost, cycles.size()));
   return cycles;
 }
