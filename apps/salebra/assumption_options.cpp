@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/figures/figures.hpp>
 
 #include "option_words.hpp"
 #include "results/answer_json.hpp"
@@ -89,7 +90,12 @@ std::vector<AssumptionVerdict> AssumptionReport::all_verdicts() const {
       if (!one.remedy.empty() && one.name.starts_with("slip_of"))
         one.remedy = "reduce the motion; slip is not computed here";
   all.insert(all.begin(), others.begin(), others.end());
+  sort_worst_first(all);
   return all;
+}
+
+void AssumptionReport::state_in(figures::Figure& figure) const {
+  figures::state_validity(figure, all_verdicts());
 }
 
 void AssumptionReport::add_to(Json& answer) const {

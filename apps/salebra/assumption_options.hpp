@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/figures/figure.hpp>
 #include <salebra/results/assumption_verdicts.hpp>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ struct AssumptionReport {
   /// Adds the keys `validity`, `verdicts`, `assumptions` and `max_motion`; `regime` if it is known
   /// or was requested; `assumptions_of` if another body was checked than that of the answer.
   void add_to(Json& answer) const;
+  /// Adds the validity to the headlines of a figure.
+  void state_in(figures::Figure& figure) const;
   /// A warning to print above the numbers if a contact slides as a whole; otherwise empty.
   std::string warning() const;
   /// The overall verdict and the line of each assumption, to print below the answer.

@@ -306,6 +306,7 @@ void run(const JointArguments& arguments, Session& session) {
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
   take_numbers(found.losses, tables.front());
+  const AssumptionReport assumptions{{found.assumptions}};
   if (session.has_plot()) {
     const detail::JointLoop loop = loop_of(arguments, found, session);
     figures::Figure figure =
@@ -313,11 +314,11 @@ void run(const JointArguments& arguments, Session& session) {
                            found.state.force, *arguments.assumptions.friction_coefficient,
                            {values_of(tables.front(), "work_per_cycle_low"),
                             values_of(tables.front(), "work_per_cycle_high")});
-    figures::state_validity(figure, std::array{found.assumptions}, false);
+    assumptions.state_in(figure);
     session.plot(figure);
   }
   add_first_loading(answer, found.contact.first_loading);
-  AssumptionReport{{found.assumptions}}.answer(session, answer);
+  assumptions.answer(session, answer);
 }
 
 }  // namespace

@@ -206,6 +206,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
                     format_quantity(problem.angular_frequency / (2 * std::numbers::pi),
                                     Dimension::frequency, 4),
                     format_quantity(found.points.front().state.mean_force, Dimension::force, 4));
+    assumptions.state_in(figure);
     session.plot(figure);
   }
   assumptions.answer(session, answer, text);
@@ -257,6 +258,9 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   write_tables(session, "slider", answer,
                {table_of("motion", lists_of(found.motion)),
                 table_of("averaged_motion", lists_of(found.averaged))});
+  const ContactParameters known = arguments.assumptions.parameters(arguments.material);
+  const AssumptionReport assumptions{
+      {contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}};
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(found.motion, found.averaged, problem.slider.spring_stiffness);
@@ -264,12 +268,10 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
         fmt::format(" µ = {:.3g}, V = {}, u_z = {}.", problem.friction_coefficient,
                     format_quantity(problem.slider.velocity, Dimension::velocity, 4),
                     format_quantity(problem.normal.normal_amplitude, Dimension::length, 4));
+    assumptions.state_in(figure);
     session.plot(figure);
   }
-  const ContactParameters known = arguments.assumptions.parameters(arguments.material);
-  AssumptionReport{
-      {contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}
-      .answer(session, answer);
+  assumptions.answer(session, answer);
 }
 
 void run(const SlidingArguments& arguments, Session& session) {

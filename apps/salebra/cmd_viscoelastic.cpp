@@ -127,6 +127,7 @@ void run(ViscoelasticArguments arguments, Session& session) {
     figure.caption += fmt::format(" Indenter: {}, δ = {}.", arguments.indenter.law,
                                   format_quantity(indentation, Dimension::length, 4)) +
                       motion_of_caption(arguments);
+    assumptions.state_in(figure);
     session.plot(figure);
   }
   assumptions.answer(session, answer);

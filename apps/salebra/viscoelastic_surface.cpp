@@ -207,13 +207,15 @@ void oscillate(const ViscoelasticArguments& arguments, Session& session) {
   answer["nominal_area"] = contact.surface.grid.area();
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
+  const AssumptionReport assumptions = known_assumptions(arguments, contact, cycles);
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, cycles);
     figure.caption += motion_of_caption(arguments);
+    assumptions.state_in(figure);
     session.plot(figure);
   }
-  known_assumptions(arguments, contact, cycles).answer(session, answer);
+  assumptions.answer(session, answer);
   require_steady(cycles);
 }
 

@@ -59,7 +59,7 @@ def _text(markup: str) -> str:
 def _wrapped(markup: str, length: float, size: float) -> str:
     """Text in lines of a length, both in points."""
     # A number stays with its unit, and a symbol with its value.
-    joined = re.sub(r"(?<=\d) (?=\S)|(?<==) | (?==)|(?<=N) (?=s/m)| (?=[^{}]*\})", "\u00a0", markup)
+    joined = re.sub(r"(?<=\d) (?=\S)|(?<=[=−+±]) | (?==)|(?<=N) (?=s/m)| (?=[^{}]*\})", "\u00a0", markup)
     lines = textwrap.wrap(joined, max(16, int(length / (0.55 * size))), break_long_words=False, break_on_hyphens=False)
     return "\n".join(map(_text, lines))
 
@@ -319,7 +319,8 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, ca
     columns = wanted = min(count, figure.columns or math.ceil(math.sqrt(len(figure.panels))))
     if width:
         columns = min(wanted, max(1, int(width / _PANEL)))
-        if count > 5 * columns:
+        small = panels[0].image and not panels[0].image.color_bar
+        if count > (3 if small else 5) * columns:  # many small panels, such as the maps of several contacts, stay beside each other
             columns = min(wanted, 2 * columns)
     with rc_context(_JOURNAL) if width else nullcontext():
         across = width / 0.0254 if width else rcParams["figure.figsize"][0] * math.sqrt(columns)
@@ -333,14 +334,14 @@ def plot_figure(figure: Any, width: float | None = None, pyplot: bool = True, ca
         names = list(dict.fromkeys(line.name for panel in panels for line in panel.lines)) if figure.one_legend else None
         for k, panel in enumerate(panels):
             row, column = divmod(k, columns)
-            top = panels[0].second_x  # in one column the scale at the top is that of the panels below, too
-            repeated = columns == 1 and k > 0 and top and panel.second_x and panel.second_x.label == top.label
             left = 2 * column + max(0, (row + 1) * columns - count)  # a last row that is not full is in the middle
-            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {}, not figure.one_legend, (None if repeated else panel.second_x, panel.second_y), names=names)
+            # A journal has no room for a second scale beside a panel, and one column only for that at the top.
+            scales = (panel.second_x if k == 0 or not width or width >= _NARROW else None, None if width else panel.second_y)
+            _panel(drawn.add_subplot(grid[row, left : left + 2]), panel, {}, not figure.one_legend, scales, names=names)
         axes = [ax for ax in drawn.axes if ax.get_subplotspec()]
         for upper, panel, lower in zip(axes, panels, panels[1:] if columns == 1 else []):
             ends = [(one.x.label, one.x.low, one.x.high) for one in (panel, lower)]
-            if ends[0] == ends[1] and not (panel.image or lower.image or upper.get_legend() or lower.second_x and lower.second_x.unit):
+            if ends[0] == ends[1] and not (panel.image or lower.image or upper.get_legend()):
                 upper.tick_params(labelbottom=False)  # the panel below has the same axis
                 upper.set_xlabel("")
         entries: dict[str, Any] = {}

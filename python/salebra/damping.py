@@ -36,6 +36,7 @@ from ._core import (
     TangentialContact as TangentialContact,
     TrajectoryDamping as TrajectoryDamping,
     TwoFrequencies as TwoFrequencies,
+    ViscoelasticCurve as ViscoelasticCurve,
     ViscoelasticCycle as ViscoelasticCycle,
     ViscoelasticDamping as ViscoelasticDamping,
     ViscoelasticPath as ViscoelasticPath,

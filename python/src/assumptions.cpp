@@ -195,6 +195,7 @@ figures::Figure sliding_figure(const ContactLaw& law, const OperatingPoint& poin
   figure.caption += figures::setting_text(figures::motion_text(motion, "excursion"),
                                           friction_coefficient, state.mean_force) +
                     ".";
+  figures::state_validity(figure, std::span<const AssumptionVerdict>());
   return figure;
 }
 
@@ -237,8 +238,10 @@ figures::Figure joint_figure(const ContactLaw& law, const JointMotion& motion,
                                               loop.tangential_force, force, friction_coefficient);
   figure.panels.erase(figure.panels.begin());
   figure.panels.front().title.erase(0, std::string_view("largest motion, ").size());
-  figure.panels.front().caption = "Loop of displacement and force with its backbone.";
+  std::string& caption = figure.panels.front().caption;
+  caption.replace(0, std::string_view("Loop of the largest motion").size(), "Loop");
   figure.columns = 1;
+  figures::state_validity(figure, std::span<const AssumptionVerdict>());
   return figure;
 }
 

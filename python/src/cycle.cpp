@@ -153,6 +153,7 @@ nb::typed<nb::object, CycleResult> simulation(
     figure.caption =
         "The last period of a simulated oscillation." +
         figures::setting_text(figures::motion_text(motion_of(motion)), friction, force) + ".";
+    figures::state_validity(figure, std::span<const AssumptionVerdict>());
     return figure;
   });
 }

@@ -82,6 +82,12 @@ Figure drawn(const BoundDampingCurve& curve) {
 
 Figure drawn(const CurveOf<DampingPoint>& curve) { return figure_of(curve.results); }
 
+Figure drawn(const CurveOf<ViscoelasticCycle>& curve) {
+  Figure figure = figure_of(curve.coordinate, curve.values, curve.results);
+  state_validity(figure, std::span<const AssumptionVerdict>());
+  return figure;
+}
+
 /// Means with their 95 % limits or, without limits, with their numerical errors; and a panel for each
 /// number that other results of a curve have.
 template <class Item>
@@ -218,7 +224,7 @@ void bind_figures(nb::module_& parent) {
                 RegimeMap, DamperMap, SurfacePicture, ModelResult, Realisation, StudyResult,
                 StudySolution, StudySensitivity, BoundDampingCurve, CurveOf<DampingPoint>,
                 CurveOf<EnsembleMean>, CurveOf<StatedMean>, CurveOf<SpotStatistics>,
-                CurveOf<FlowFactors>>();
+                CurveOf<FlowFactors>, CurveOf<ViscoelasticCycle>>();
   bind_laws();
 }
 

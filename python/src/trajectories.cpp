@@ -201,6 +201,7 @@ void bind_damping_of_trajectory(nb::module_& m) {
           figure.caption +=
               figures::setting_text(motion_text_of(trajectory), friction_coefficient, mean_force) +
               ".";
+          figures::state_validity(figure, std::span<const AssumptionVerdict>());
           return figure;
         });
       },

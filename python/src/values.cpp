@@ -15,6 +15,7 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/generators/profile.hpp>
 #include <salebra/study/study.hpp>
@@ -84,7 +85,8 @@ void bind_values(nb::module_& m) {
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
                 MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion,
                 SliderMotion, BoundDampingCurve, CurveOf<EnsembleMean>, CurveOf<StatedMean>,
-                CurveOf<DampingPoint>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>>();
+                CurveOf<DampingPoint>, CurveOf<SpotStatistics>, CurveOf<FlowFactors>,
+                CurveOf<ViscoelasticCycle>>();
 
   m.def(
       "_answer_constructor",

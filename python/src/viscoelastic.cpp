@@ -20,6 +20,7 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/curves.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
 #include "interop/drawn.hpp"
@@ -166,6 +167,7 @@ figures::Figure damping_figure(const IndenterLaw& law, const PronySeries& prony,
   figure.columns = 3;
   figure.caption += " Motion: " + motion_text_of(path) +
                     ", F = " + format_quantity(loss.mean_force, Dimension::force, 4) + ".";
+  figures::state_validity(figure, std::span<const AssumptionVerdict>());
   return figure;
 }
 
@@ -207,6 +209,9 @@ void bind_rough_cycles(nb::module_& m) {
       m, "ViscoelasticCycle",
       "Loss of a rough contact on a viscoelastic body in its steady state; columns are views.");
   result_methods(result);
+  curve_class<ViscoelasticCycle>(m, "ViscoelasticCurve",
+                                 "Losses over the frequency: a sequence of "
+                                 ":class:`ViscoelasticCycle` with an array for each number.");
   m.def(
       "viscoelastic_sweep",
       [](const BoundSurface& surface, const PressedArgument& material, const PronySeries& prony,
@@ -221,9 +226,11 @@ void bind_rough_cycles(nb::module_& m) {
         options.tolerance = tolerance;
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return viscoelastic_sweep(surface.surface, material.pressed(), prony, oscillation(motion),
-                                    operating_point_of(pressure, {}, indentation, force),
-                                    angular_frequencies.values, options);
+          return CurveOf<ViscoelasticCycle>{
+              "angular_frequency", angular_frequencies.values,
+              viscoelastic_sweep(surface.surface, material.pressed(), prony, oscillation(motion),
+                                 operating_point_of(pressure, {}, indentation, force),
+                                 angular_frequencies.values, options)};
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("prony"), nb::arg("motion"),

@@ -116,7 +116,7 @@ function axisLayout(axis, mode, scale, values) {
 
 function draw(spec, state, plot, legend, figure) {
   const content = spec.plot({state});
-  const all = (name) => content.series.filter((s) => s.type !== "heatmap").flatMap((s) => Array.from(s[name] ?? []));
+  const all = (name) => content.series.filter((s) => s.type !== "heatmap").flatMap((s) => Array.from(s[name] ?? []).filter((_, k) => known(s.x[k]) && known(s.y[k])));
   const scales = {}, layout = {
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: axisFont(), showlegend: false, hovermode: "closest",
     separators: `.${NARROW}`, margin: {l: 12, r: 14, t: 8, b: 12}, dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", autosize: true,
@@ -155,6 +155,7 @@ function draw(spec, state, plot, legend, figure) {
 // The markers of the curves, in the shapes that plotly draws.
 const LEGEND_MARKS = {
   circle: `<circle cx="14" cy="5" r="3.2"/>`, "circle-open": `<circle class="open" cx="14" cy="5" r="3"/>`, square: `<rect x="11" y="2" width="6" height="6"/>`,
+  "triangle-down": `<path class="solid" d="M14 8.8L18 1.8H10Z"/>`, pentagon: `<path class="solid" d="M14 1.2L17.8 4L16.4 8.4H11.6L10.2 4Z"/>`,
   diamond: `<path class="solid" d="M14 1L18 5L14 9L10 5Z"/>`, "triangle-up": `<path class="solid" d="M14 1.2L18 8.2H10Z"/>`, star: `<path class="solid" d="M14 0.5L15.3 3.6L18.7 3.9L16.1 6.1L16.9 9.4L14 7.6L11.1 9.4L11.9 6.1L9.3 3.9L12.7 3.6Z"/>`,
   cross: `<path class="solid" d="M12.7 1.5H15.3V3.7H17.5V6.3H15.3V8.5H12.7V6.3H10.5V3.7H12.7Z"/>`, x: `<path class="open" d="M11 2L17 8M17 2L11 8"/>`,
 };
@@ -228,7 +229,7 @@ function estimateColumns(label, key, unit, estimate) {
 
 // Figures of the library: include/salebra/figures/figure.hpp describes their members.
 
-const CURVE_STYLES = [["blue", "circle"], ["vermilion", "square"], ["green", "diamond"], ["purple", "triangle-up"], ["ochre", "cross"], ["slate", "x"], ["ink", "circle-open"], ["muted", "circle-open"], ["vermilion", "star"]];
+const CURVE_STYLES = [["blue", "circle"], ["vermilion", "square"], ["green", "triangle-up"], ["purple", "diamond"], ["ochre", "triangle-down"], ["slate", "pentagon"], ["ink", "x"], ["muted", "cross"], ["vermilion", "star"]];
 const CURVE_DASHES = {dashed: "dash", dotted: "dot"};
 const LINE_DASHES = ["longdash", "longdashdot", "dashdot", "dot"];
 const PALETTES = {sequential: "Viridis", diverging: "RdBu", grey: "Greys"};

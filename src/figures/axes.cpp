@@ -139,7 +139,8 @@ std::string error_text(double value, double error, Dimension dimension) {
 
 std::string validity_text(std::span<const AssumptionVerdict> verdicts) {
   const Validity validity = validity_of(verdicts);
-  if (validity == Validity::valid || validity == Validity::not_checked) return "";
+  if (validity == Validity::valid) return "";
+  if (validity == Validity::not_checked) return "validity not checked";
   const AssumptionVerdict& worst = verdicts.front();
   const auto known = std::ranges::find(assumption_names(), worst.name, &AssumptionName::name);
   // "γ = µF/v: Coulomb friction, not a damper; at all loads" gives the reason in its middle.
@@ -152,15 +153,25 @@ std::string validity_text(std::span<const AssumptionVerdict> verdicts) {
   return fmt::format("{}: {}", name_of(validity), reason);
 }
 
-void state_validity(Figure& figure, std::span<const Assumptions> cases, bool slip_followed) {
-  if (cases.empty()) return;
-  const std::string text = validity_text(verdicts_of(cases, slip_followed));
+void state_validity(Figure& figure, std::span<const AssumptionVerdict> verdicts) {
+  std::string text = verdicts.empty() ? "validity not checked" : validity_text(verdicts);
   if (text.empty()) return;
+  bool stated = false;
   for (Panel& panel : figure.panels)
     if (std::ranges::any_of(std::array{"γ = ", "Γ = ", "W = "}, [&](const char* headline) {
           return panel.title.find(headline) != std::string::npos;
-        }))
+        })) {
       panel.title += " (" + text + ")";
+      stated = true;
+    }
+  if (stated) return;
+  text[0] -= 'a' - 'A';
+  figure.caption += " " + text + ".";
+}
+
+void state_validity(Figure& figure, std::span<const Assumptions> cases, bool slip_followed) {
+  state_validity(
+      figure, cases.empty() ? std::vector<AssumptionVerdict>() : verdicts_of(cases, slip_followed));
 }
 
 std::string poor_law(const LawDescription& law) {

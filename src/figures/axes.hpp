@@ -33,8 +33,8 @@ std::string interval_text(double value, double low, double high, Dimension dimen
 /// "25.3 nm ± 2 %"; without the error where it is unknown, and without the value where it is no larger
 /// than its error.
 std::string error_text(double value, double error, Dimension dimension);
-/// "not valid: plasticity", the validity that these verdicts give and what decides it; empty if all
-/// assumptions that were checked hold.
+/// "not valid: plasticity", the validity that these verdicts give and what decides it, or "validity
+/// not checked"; empty if all assumptions hold.
 std::string validity_text(std::span<const AssumptionVerdict> verdicts);
 /// " (poor law: do not use Eq. (16))" for an exponential law that describes its curve poorly.
 std::string poor_law(const LawDescription& law);

@@ -111,7 +111,9 @@ Panel deviation_panel(const ForceCurve& curve, const ExponentialFit& fit) {
                                                  std::exp(-sample.mean_gap / fit.decay_length)) -
                               1));
   }
-  return {.caption = "Deviation of the pressure from the law.",
+  return {.caption =
+              "Deviation of the pressure from the law, up to twice and from half the pressures "
+              "of the window.",
           .x = axis_of("mean_gap", false, "mean gap ū"),
           .y = {.label = "deviation from the fit (%)"},
           .curves = {points},
@@ -152,6 +154,7 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
     figure.panels.push_back(local_panel(local_decay_length(curve), fit));
     figure.panels.back().ranges.push_back(window_of(curve, *fit));
     figure.panels.push_back(deviation_panel(curve, *fit));
+    set_limits({&figure.panels[0], &figure.panels[1], &figure.panels[2]}, &Panel::x);
   }
 
   Curve areas = points_of(curve, "", &ForceSample::pressure, &ForceSample::contact_area_fraction);

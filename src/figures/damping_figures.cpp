@@ -196,11 +196,11 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   Figure figure{
       .kind = "damping",
       .caption =
-          "Loss of a motion with its numerical error (band, where it is known), and by the closed "
-          "form for small amplitudes, Eq. (12) or (15).",
+          "Loss of a motion with its numerical error (band), and by the closed form for small "
+          "amplitudes, Eq. (12) or (15).",
       .columns = 3,
       .one_legend = true};
-  figure.panels = {{.title = "Energy dissipated in a cycle",
+  figure.panels = {{.title = "energy lost in a cycle",
                     .caption = "Energy lost in a cycle.",
                     .x = x,
                     .y = axis_of("work_per_cycle"),
@@ -209,7 +209,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     .caption = "Damping constant.",
                     .x = x,
                     .y = axis_of("damping_constant")},
-                   {.title = "Error of the closed form without slip",
+                   {.title = "error of the closed form, without slip",
                     .caption = "Deviation of the closed form from the loss without slip.",
                     .x = x,
                     .y = {.label = "closed form over loss − 1 (%)"}}};
@@ -256,7 +256,8 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
     if (slips)
       add(
           figure.panels[0], "without slip" + way, "work_per_cycle_without_slip",
-          [](const DampingResult& one) { return one.work_per_cycle_without_slip; }, none);
+          [](const DampingResult& one) { return one.work_per_cycle_without_slip; },
+          [](const DampingResult& one) { return one.error_without_slip.total(); });
     add(
         figure.panels[2], way.empty() ? "" : way.substr(2), "",
         [](const DampingResult& one) {

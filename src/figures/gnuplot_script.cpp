@@ -24,7 +24,7 @@ constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69
                                "#56B4E9", "#000000", "#808080", "#882255"};
 // Number of colours that curves get by default; grey and wine are used only on request.
 constexpr int cycle = 7;
-constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
+constexpr std::array markers = {7, 5, 9, 13, 11, 15, 2, 1, 3};
 /// Dash patterns of lines across a panel, so that the legend can tell them apart.
 constexpr std::array line_dashes = {"(2,4)", "(10,5)", "(10,4,2,4)", "(2,10)", "(16,4)"};
 
@@ -232,15 +232,15 @@ class PanelScript {
   /// What draws them, each with its text; known after write().
   const std::vector<std::pair<std::string, std::string>>& entries() const { return entries_; }
 
-  /// Chooses the places of names and legend in a frame with this room on the left, in pixels.
-  void arrange(double left) {
-    width_ = layout_.width - left - right();
-    // The title is in the middle of the frame, which is not that of the panel; the frame of a map
-    // is as wide as its scale asks, at the left.
-    double wide = width_;
+  /// Chooses the places of names and legend in a frame with this room at its sides, in pixels.
+  void arrange(double left, double right) {
+    width_ = layout_.width - left - right;
+    // The frame of a map is as wide as its scale asks, in the middle of the room that it has.
     if (panel_.equal_scales && x_.low && x_.high && y_.low && y_.high)
-      wide = std::min(wide, layout_.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low));
-    const double middle = left + wide / 2;
+      aside_ = std::max(
+          0.0, (width_ - layout_.frame_height * (*x_.high - *x_.low) / (*y_.high - *y_.low)) / 2);
+    // The title is in the middle of the frame, which is not that of the panel.
+    const double middle = left + width_ / 2;
     title_ = wrapped(panel_.title,
                      2 * std::min(middle, layout_.width - middle) / layout_.mean_character());
     find_obstacles();
@@ -254,6 +254,16 @@ class PanelScript {
     return static_cast<int>(std::ceil(entries / std::max(1.0, std::floor(width_ / wide - 0.1))));
   }
 
+  /// Moves the names of lines that the legend of all panels has to that legend.
+  void leave_to_legend(const std::vector<std::string>& names) {
+    for (const PlacedName& placed : names_)
+      if (std::ranges::find(names, placed.mark->name) != names.end())
+        unplaced_.push_back(placed.mark);
+    std::erase_if(names_, [&](const PlacedName& placed) {
+      return std::ranges::find(names, placed.mark->name) != names.end();
+    });
+  }
+
   /// Room on the left of the frame for the label, the numbers and the tics of y, in pixels.
   double left() const { return beside(y_, y_label_); }
 
@@ -265,6 +275,9 @@ class PanelScript {
              0.05 * layout_.frame_width();
     return right_ ? beside(*right_, right_label_) : 1.7 * layout_.font;
   }
+
+  /// Distance of the frame of a map from the sides of its room, in pixels.
+  double aside() const { return aside_; }
 
   /// Room above the frame for the title and the second scale of x, in pixels.
   double top() const {
@@ -616,7 +629,7 @@ class PanelScript {
   std::optional<Raster> raster_;
   /// Size of the frame in pixels. height_ is 0 if the limits are unknown, so that texts cannot
   /// avoid curves.
-  double width_ = 0, height_ = 0;
+  double width_ = 0, height_ = 0, aside_ = 0;
   std::vector<std::array<double, 2>> obstacles_;
   std::vector<Box> taken_;
   std::vector<PlacedName> names_;
@@ -638,7 +651,9 @@ Layout layout_of(const Figure& figure, std::optional<double> width, int& columns
   const int panels = static_cast<int>(figure.panels.size()), wanted = columns;
   const auto rows = [&] { return (panels + columns - 1) / columns; };
   columns = std::min(wanted, std::max(1, static_cast<int>(*width / least_panel)));
-  if (rows() > 5) columns = std::min(wanted, 2 * columns);
+  // Many small panels, such as the maps of several contacts, stay beside each other.
+  const std::optional<Image>& map = figure.panels.front().image;
+  if (rows() > (map && !map->color_bar ? 3 : 5)) columns = std::min(wanted, 2 * columns);
   const double across = *width / columns,
                caption = 0.75 * font * font * double(figure.caption.size()) / *width;
   return {
@@ -691,26 +706,34 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
         line_names.push_back(mark.name);
   std::vector<PanelScript> scripts;
   // Frames of a row have the same height, with room for the longest legend below them; those of a
-  // column have the same left edge.
+  // column have the same edges.
   std::vector<double> tops(static_cast<std::size_t>(rows), 0),
-      bottoms = tops, lefts(static_cast<std::size_t>(columns), 0);
+      bottoms = tops, lefts(static_cast<std::size_t>(columns), 0), rights = lefts;
   for (int k = 0; k < panels; ++k) {
     scripts.emplace_back(figure.panels[static_cast<std::size_t>(k)], k + 1, layout,
                          !figure.one_legend, line_names, body);
-    double& left = lefts[static_cast<std::size_t>(k % columns)];
-    left = std::max(left, scripts.back().left());
+    const auto column = static_cast<std::size_t>(k % columns);
+    lefts[column] = std::max(lefts[column], scripts.back().left());
+    // A map has the room of its own colour scale.
+    if (!figure.panels[static_cast<std::size_t>(k)].image)
+      rights[column] = std::max(rights[column], scripts.back().right());
   }
   for (int k = 0; columns == 1 && k + 1 < panels; ++k) {
     const auto at = static_cast<std::size_t>(k);
     if (scripts[at].shares_x(scripts[at + 1])) scripts[at].hide_x();
   }
+  const auto right_of = [&](int k) {
+    return figure.panels[static_cast<std::size_t>(k)].image
+               ? scripts[static_cast<std::size_t>(k)].right()
+               : rights[static_cast<std::size_t>(k % columns)];
+  };
   // Lines of a legend are farther apart in an SVG, and the label of x is lower.
   const double line = (format == PictureFormat::svg ? 1.65 : 1.4) * layout.font,
                gap = (format == PictureFormat::svg ? 1.5 : 0.4) * layout.font,
                low = format == PictureFormat::svg ? 0.8 * layout.font : 0;
   for (int k = 0; k < panels; ++k) {
     PanelScript& one = scripts[static_cast<std::size_t>(k)];
-    one.arrange(lefts[static_cast<std::size_t>(k % columns)]);
+    one.arrange(lefts[static_cast<std::size_t>(k % columns)], right_of(k));
     const auto row = static_cast<std::size_t>(k / columns);
     const int legend = one.legend_rows();
     tops[row] = std::max(tops[row], one.top());
@@ -727,6 +750,7 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
     for (const PanelScript& one : scripts)
       for (const std::string& name : one.names())
         if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  for (PanelScript& one : scripts) one.leave_to_legend(names);
   const int in_row =
       std::max(1, static_cast<int>(across / (1.2 * width_of_entries(names, layout))));
   const double legend =
@@ -744,15 +768,16 @@ std::string gnuplot_script(const Figure& given, PictureFormat format, std::optio
     if (column == 0) top -= height_of(row);
     // A last row that is not full is in the middle.
     const double from = column + 0.5 * std::max(0, (row + 1) * columns - panels);
-    const double bottom = top + bottoms[static_cast<std::size_t>(row)];
+    const double bottom = top + bottoms[static_cast<std::size_t>(row)],
+                 aside = scripts[static_cast<std::size_t>(k)].aside();
     scripts[static_cast<std::size_t>(k)].write(
         fmt::format("set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n", from / columns,
                     top / down, 1.0 / columns, height_of(row) / down) +
         fmt::format("set lmargin at screen {:.6f}\nset bmargin at screen {:.6f}\n"
                     "set tmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n",
-                    from / columns + lefts[static_cast<std::size_t>(column)] / across,
+                    from / columns + (lefts[static_cast<std::size_t>(column)] + aside) / across,
                     bottom / down, (bottom + layout.frame_height) / down,
-                    (from + 1) / columns - scripts[static_cast<std::size_t>(k)].right() / across) +
+                    (from + 1) / columns - (right_of(k) + aside) / across) +
         (k == 0 && title > 0 ? fmt::format("set label {} at screen 0.5,{:.6f} center\n",
                                            literal(figure.title), 1 - 0.5 * title / down)
                              : "") +

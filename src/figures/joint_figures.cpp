@@ -85,14 +85,12 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
                                   .high = high,
                                   .style = Style::line_and_points}};
   figure.panels.back().y.prefix_of = work[largest];
-  // A joint that slides is no damper. The loop may still look like partial slip.
-  const bool sliding = losses[largest].regime == Regime::sliding;
   figure.panels.push_back(
-      {.title = fmt::format("largest motion, {}: W = {}",
-                            sliding ? "sliding (springs that stick carry below 5 % of F)"
-                                    : name_of(losses[largest].regime),
-                            loss),
-       .caption = "Loop of the largest motion with its backbone.",
+      {.title = fmt::format("largest motion, {}: W = {}", name_of(losses[largest].regime), loss),
+       .caption = std::string("Loop of the largest motion with its backbone.") +
+                  (losses[largest].regime == Regime::sliding
+                       ? " It counts as sliding: springs that stick carry below 5 % of F."
+                       : ""),
        .x = axis_of("tangential_amplitude", false, "displacement x"),
        .y = axis_of("tangential_force", false, "tangential force F_x"),
        .legend = Legend::top_left});

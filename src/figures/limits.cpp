@@ -59,13 +59,17 @@ void set_limits(const std::vector<Panel*>& panels, Axis Panel::*axis) {
 
 Figure with_limits(Figure figure) {
   std::map<std::string, std::vector<Axis*>> same;
-  for (Panel& panel : figure.panels)
+  for (Panel& panel : figure.panels) {
+    // The symbols of many points would hide their line.
+    for (Curve& curve : panel.curves)
+      if (curve.style == Style::line_and_points && curve.x.size() > 40) curve.style = Style::line;
     for (Axis Panel::*const axis : {&Panel::x, &Panel::y}) {
       // An image ends at the edges of its cells.
       if (!panel.image) set_limits({&panel}, axis);
       Axis& one = panel.*axis;
       if (!one.quantity.empty() && one.low && one.high) same[one.quantity].push_back(&one);
     }
+  }
   // A quantity has one unit in all panels: that of its headline or else of its largest number.
   for (const auto& [quantity, axes] : same) {
     std::optional<double> value;
@@ -101,13 +105,12 @@ Figure with_limits(Figure figure) {
 
 Figure for_width(Figure figure, std::optional<double> width) {
   constexpr double two_columns = 0.12;
+  if (width)
+    for (Panel& panel : figure.panels) panel.second_y = {};
   if (width.value_or(1) < two_columns) {
     std::erase_if(figure.panels, &Panel::detail);
-    // In one column the second scale of the panel at the top is that of the panels below.
-    for (std::size_t k = 1; k < figure.panels.size(); ++k)
-      if (auto& second = figure.panels[k].second_x;
-          second && figure.panels[0].second_x && second->label == figure.panels[0].second_x->label)
-        second = {};
+    // One column has room for the second scale at its top only.
+    for (std::size_t k = 1; k < figure.panels.size(); ++k) figure.panels[k].second_x = {};
   }
   return with_limits(std::move(figure));
 }

@@ -115,14 +115,22 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   }
   for (std::size_t k = 0; k < count; ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
+  // That nothing was checked is said once for all contacts.
+  std::vector<std::string> validity;
+  for (std::size_t k = 0; k < assumptions.size(); ++k)
+    validity.push_back(validity_text(verdicts_of(assumptions.subspan(k, 1), false)));
+  const bool unchecked =
+      !single && !validity.empty() && std::ranges::all_of(validity, [](const std::string& text) {
+        return text == "validity not checked";
+      });
   for (std::size_t k = 0; k < count; ++k) {
-    std::string title = (single ? "" : names[k] + ": ") + loss_text(outcomes[k]);
-    if (k < assumptions.size())
-      if (const std::string text = validity_text(verdicts_of(assumptions.subspan(k, 1), false));
-          !text.empty())
-        title += " (" + text + ")";
-    figure.panels.push_back(work_panel(outcomes[k], title));
+    const bool stated = !unchecked && k < validity.size() && !validity[k].empty();
+    figure.panels.push_back(work_panel(outcomes[k], (single ? "" : names[k] + ": ") +
+                                                        loss_text(outcomes[k]) +
+                                                        (stated ? " (" + validity[k] + ")" : "")));
   }
+  if (unchecked) figure.title += " (" + validity[0] + ")";
+  figure.one_legend = true;
   std::size_t loops = 0;
   for (std::size_t k = 0; k < count; ++k)
     if (outcomes[k].frictional) {

@@ -195,13 +195,32 @@ Figure figure_of(const SampledMotion& path) {
 }
 
 Figure figure_of(const CycleResult& cycle) {
-  return {.kind = "cycle",
-          .panels = {{.title = "loss W = " + error_text(cycle.work_per_cycle, cycle.step_error,
-                                                        Dimension::energy),
-                      .x = axis_of("tangential", false, "displacement x"),
-                      .y = axis_of("tangential_force", false, "tangential force F_x"),
-                      .curves = {{.x = column(cycle, &CycleSample::tangential),
-                                  .y = column(cycle, &CycleSample::tangential_force)}}}}};
+  Figure figure{.kind = "cycle", .columns = 3};
+  figure.panels.push_back(
+      {.title = "loss W = " + error_text(cycle.work_per_cycle, cycle.step_error, Dimension::energy),
+       .caption = "Tangential force over the displacement.",
+       .x = axis_of("tangential", false, "displacement x"),
+       .y = axis_of("tangential_force", false, "tangential force F_x"),
+       .curves = {{.x = column(cycle, &CycleSample::tangential),
+                   .y = column(cycle, &CycleSample::tangential_force)}}});
+  figure.panels.push_back(
+      {.caption = "Work over the cycle.",
+       .x = {.label = "time in periods", .low = 0, .high = 1},
+       .y = axis_of("work", false, "work of the tangential force"),
+       .curves = {{.x = column(cycle, &CycleSample::t), .y = column(cycle, &CycleSample::work)}}});
+  if (const Field map = cycle.contact_map(); map.size() > 0)
+    figure.panels.push_back(
+        {.caption = "Cells always in contact (black) or during a part of the cycle (grey).",
+         .x = {.label = "cell along x"},
+         .y = {.label = "cell along y"},
+         .image = Image{.x = cells(map.rows(), 1),
+                        .y = cells(map.cols(), 1),
+                        .values = map,
+                        .scale = {.low = 0, .high = 2},
+                        .palette = Palette::grey,
+                        .color_bar = false},
+         .equal_scales = true});
+  return figure;
 }
 
 Figure figure_of(const StressMap& map) {

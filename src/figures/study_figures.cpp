@@ -14,6 +14,7 @@
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>
 #include <salebra/surface/lay.hpp>
+#include <set>
 
 #include "axes.hpp"
 #include "study/estimate.hpp"
@@ -166,6 +167,7 @@ class Pictures {
                 return sample.contact_area_fraction / sample.pressure * n_.rms_slope[i] * slope_of_;
               });
     add_theories(pictures_.back().panels.front());
+    if (n_.motion) of_damping();
     of_curves(
         "stiffness-load", "Normal stiffness",
         "Normal stiffness over force, in units of 1/h_{rms}. For an exponential law it is the "
@@ -173,7 +175,6 @@ class Pictures {
         "stiffness K h_{rms}/F", [this](std::size_t i, const ForceSample& sample) {
           return sample.normal_stiffness * n_.rms_height[i] / sample.force;
         });
-    if (n_.motion) of_damping();
     of_curves("stiffness-ratio", "Tangential over normal stiffness",
               "The closed forms assume K_t = (G^{*}/E^{*})K, which holds for circular spots; "
               "stiffnesses computed for the real contacts show how accurate that is here.",
@@ -236,8 +237,10 @@ class Pictures {
     panel.legend = Legend::bottom_left;
     const EnsembleMean length = decay_length();
     if (!std::isfinite(length.mean)) return;
-    panel.title = "decay length l = " +
-                  interval_text(length.mean, length.low, length.high, Dimension::length) + n_.law;
+    panel.title =
+        fmt::format("decay length l = {} = {:.3g} h_{{rms}}{}",
+                    interval_text(length.mean, length.low, length.high, Dimension::length),
+                    length.mean / mean_of(n_, n_.rms_height).mean, n_.law);
     const auto window = [&](double PressureWindow::*end) {
       std::vector<double> ends;
       for (const ExponentialFit& fit : n_.fits) ends.push_back(fit.window.*end);
@@ -315,14 +318,13 @@ class Pictures {
     panel.curves.push_back(std::move(curvature));
   }
 
-  /// A ratio that no model computes, and all take from the moduli, is no result.
+  /// A ratio that a model does not compute but takes from the moduli is no result.
   void finish_ratio(Panel& panel) {
     panel.lines = {{.at = n_.modulus_ratio, .name = "G^{*}/E^{*}", .quantity = "modulus_ratio"}};
-    const bool computed = std::ranges::any_of(panel.curves, [&](const Curve& curve) {
-      return std::ranges::any_of(
+    std::erase_if(panel.curves, [&](const Curve& curve) {
+      return std::ranges::none_of(
           curve.y, [&](double value) { return std::abs(value - n_.modulus_ratio) > 1e-6 * value; });
     });
-    if (!computed) panel.curves.clear();
   }
 
   EnsembleMean decay_length() const {
@@ -338,7 +340,6 @@ class Pictures {
                        axis_of("local_decay_length", false, "decay length −dū/d ln p"));
     panel.x = axis_of("mean_gap", false, "mean gap ū");
     panel.second_x = {};
-    panel.y.low = 0;
     if (const double length = decay_length().mean; std::isfinite(length))
       panel.lines = {{.at = length, .name = "l of the fit", .quantity = "decay_length"}};
     for (std::size_t i = 0; i < std::min(n_.local.size(), max_single_curves); ++i)
@@ -450,8 +451,8 @@ std::vector<Figure> study_pictures(const StudyNumbers& numbers) { return Picture
 
 Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& varied) {
   Figure figure{.kind = "study", .one_legend = true};
-  constexpr std::array<std::string_view, 3> details{"stiffness-ratio", "local-length",
-                                                    "damping-ratio"};
+  constexpr std::array<std::string_view, 4> details{"stiffness-load", "stiffness-ratio",
+                                                    "local-length", "damping-ratio"};
   figure.columns = results.size() == 1 ? 2 : int(results.size());
   std::vector<std::vector<Figure>> points;
   for (const StudyResult& result : results) points.push_back(study_pictures(numbers_of(result)));
@@ -491,6 +492,12 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
                                                  "symbol.") +
       (results.front().configuration.adhesion ? ""
                                               : " " + motion_sentence(numbers_of(results.front())));
+  std::set<std::string> warned;
+  for (const StudyResult& result : results)
+    for (const EnsembleWarning& warning : result.ensemble_warnings)
+      if (warned.insert(warning.name).second)
+        figure.caption +=
+            " Warning: " + plain_text(warning.text.substr(0, warning.text.find(';'))) + ".";
   return figure;
 }
 

@@ -184,9 +184,13 @@ std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, b
   }
   if (slip_followed && std::ranges::count(cases, Regime::sliding, &Assumptions::regime) > 0)
     verdicts.push_back(no_damper(cases, pressures));
+  sort_worst_first(verdicts);
+  return verdicts;
+}
+
+void sort_worst_first(std::vector<AssumptionVerdict>& verdicts) {
   std::ranges::stable_sort(verdicts, {},
                            [](const AssumptionVerdict& one) { return rank_of(one.verdict); });
-  return verdicts;
 }
 
 AssumptionVerdict closed_form_verdict(std::span<const Assumptions> cases,

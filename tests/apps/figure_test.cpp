@@ -106,9 +106,9 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
     check_alike(drawing.column(1, curve, 1), each([&](auto k) { return gap[k] / rms_height; }));
     check_alike(drawing.column(2, curve, 1),
                 each([&](auto k) { return area[k] * scale / pressure[k]; }));
-    check_alike(drawing.column(3, curve, 1),
+    check_alike(drawing.column(4, curve, 1),
                 each([&](auto k) { return stiffness[k] * rms_height / force[k]; }));
-    check_parallel(drawing.column(4, curve, 1),
+    check_parallel(drawing.column(3, curve, 1),
                    logarithms(numbers(found["damping"]["damping_constant"]["mean"])));
     ++curve;
   }
@@ -121,7 +121,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
-  check_parallel(drawing.column(4, curve, 1),
+  check_parallel(drawing.column(3, curve, 1),
                  logarithms(numbers(
                      answer["models"]["bem"]["damping"]["damping_constant_closed_form"]["mean"])));
   // The pressures of the fit, at mean gaps from two and a half rms heights to one.
@@ -139,7 +139,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   test.write("study.toml", study_text("seeds = [3, 4]"));
   const Drawing bands(test, command);
   const json two = bands.answer();
-  for (const int panel : {1, 2, 3}) {
+  for (const int panel : {1, 2, 4}) {
     const Values mean = bands.column(panel, 1, 1), low = bands.column(panel, 1, 2),
                  high = bands.column(panel, 1, 3);
     for (std::size_t k = 0; k < mean.size(); ++k) {
@@ -151,7 +151,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
     }
   }
   const json& damping = two["models"]["gw_moments"]["damping"]["damping_constant"];
-  check_parallel(bands.column(4, 1, 3), logarithms(numbers(damping["high"])));
+  check_parallel(bands.column(3, 1, 3), logarithms(numbers(damping["high"])));
 }
 
 TEST_CASE("The picture of a study draws the damping constants of its table with their errors",
@@ -168,7 +168,7 @@ TEST_CASE("The picture of a study draws the damping constants of its table with 
              high = numbers(table["high"]);
       const Values error = numbers(table["error"]);
       const int points = 4;  // after three models and the law
-      const auto drawn = [&](std::size_t column) { return drawing.column(4, points, column); };
+      const auto drawn = [&](std::size_t column) { return drawing.column(3, points, column); };
       check_parallel(drawn(1), logarithms(mean));
       const double prefix = drawn(1)[9] - std::log10(mean[9]);
       int bars = 0;

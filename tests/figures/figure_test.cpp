@@ -9,6 +9,7 @@
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/damping/assumptions.hpp>
 #include <salebra/figures/figures.hpp>
+#include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
@@ -264,8 +265,13 @@ TEST_CASE("A headline says that its result is not valid, and why", "[figures]") 
   stated = figure;
   state_validity(stated, std::vector{flowing}, true);
   CHECK(stated.panels[0].title == "γ = 14.1 N s/m (not valid: plasticity)");
-  state_validity(figure, std::vector{Assumptions{}}, true);
-  CHECK(figure.panels[0].title == "γ = 14.1 N s/m");
+  stated = figure;
+  state_validity(stated, std::vector{Assumptions{}}, true);
+  CHECK(stated.panels[0].title == "γ = 14.1 N s/m (validity not checked)");
+  CHECK(stated.caption.empty());
+  figure.panels[0].title = "a map";
+  state_validity(figure, std::vector<AssumptionVerdict>());
+  CHECK(figure.caption == " Validity not checked.");
 }
 
 TEST_CASE("The maps of a surface of a study hold its values where its points are", "[figures]") {

@@ -150,6 +150,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "TwoFrequencies": lambda: salebra.TwoFrequencies(
             normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=0.0, normal_angular_frequency=1e5,
             tangential_angular_frequency=1e4),
+        "ViscoelasticCurve": lambda: salebra.viscoelastic_sweep(surface, MATERIAL, prony, EQUAL, [10.0, 100.0], pressure=1e5, steps=16, tolerance=0.01),
         "ViscoelasticDamping": lambda: salebra.viscoelastic_damping(law, prony, salebra.sample(EQUAL, 1e-6, 32), springs=8),
         "ViscoelasticIndentation": lambda: salebra.viscoelastic_indentation(law, prony, [0.0, 1e-3], [0.0, 1e-6], springs=8),
         "ViscoelasticPath": lambda: salebra.viscoelastic_path(surface, MATERIAL, prony, [0.0, 1e-3, 1e-2], pressure=1e5, steps=2),

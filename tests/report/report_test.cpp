@@ -181,7 +181,7 @@ TEST_CASE("A page draws the panels that the program draws of the same study, to 
   Json drawn = Json::parse(figures::figure_json(figures::figure_of(result)))["panels"],
        shown = payload(content(scratch / "study.html"))["points"][0];
   std::size_t k = 0;
-  for (const char* kind : {"gap-load", "area-load", "stiffness-load", "damping-curve",
+  for (const char* kind : {"gap-load", "area-load", "damping-curve", "stiffness-load",
                            "stiffness-ratio", "local-length", "damping-ratio"}) {
     INFO(kind);
     const auto figure = std::ranges::find_if(shown["figures"],

@@ -19,6 +19,7 @@ class ContactLaw;
 class IndenterLaw;
 struct AsperityDamping;
 struct Assumptions;
+struct AssumptionVerdict;
 struct ContactSetAt;
 struct ContactSpots;
 struct Correlation;
@@ -68,8 +69,11 @@ struct ViscoelasticPath;
 /// anything to draw. Cost: that of copying the numbers, unless stated otherwise.
 namespace salebra::figures {
 
-/// Adds to the headlines of damping constants and losses, "γ = 14.1 N s/m", that these assumptions
-/// make the result not valid, or valid with care, and why.
+/// Adds to the headlines of damping constants and losses, "γ = 14.1 N s/m", what these assumptions
+/// say of the result: "not valid", "valid with care", and why, or "validity not checked". A figure
+/// without such a headline gets it in its caption.
+void state_validity(Figure& figure, std::span<const AssumptionVerdict> verdicts);
+/// Likewise, of the assumptions in each case; without any, nothing was checked.
 void state_validity(Figure& figure, std::span<const Assumptions> cases, bool slip_followed);
 
 /// One curve of two quantities by their names in JSON and files, which give labels and units; an axis

@@ -59,6 +59,9 @@ std::string given_as(const std::string& parameter);
 std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, bool slip_followed,
                                            std::span<const double> pressures = {});
 
+/// Sorts verdicts, worst first; those of one kind keep their order.
+void sort_worst_first(std::vector<AssumptionVerdict>& verdicts);
+
 /// Returns, in words, the additional assumption of the closed forms, Eqs (12), (15) and (16): a
 /// small normal amplitude.
 AssumptionVerdict closed_form_verdict(std::span<const Assumptions> cases,
