@@ -211,6 +211,7 @@ class KeptContact {
         force_(state.force),
         stiffness_(stiffness),
         excess_(excess_force(state.contact_pressure, state.gap, growth, surface)) {
+    cells_.reserve(static_cast<std::size_t>((state.contact_pressure > 0).count()));
     for (Index k = 0; k < growth.size(); ++k)
       if (const double pressure = state.contact_pressure.data()[k]; pressure > 0)
         cells_.push_back({k, static_cast<float>(pressure), static_cast<float>(growth.data()[k])});
