@@ -16,14 +16,22 @@ struct Lanes {
     for (int lane = 0; lane < tile_width; ++lane) total += value[lane];
     return total;
   }
-  // The minimum of the 16 numbers; halves their count at each step, because that vectorises.
-  double least() const {
-    Lanes left = *this;
-    for (int half = tile_width / 2; half > 0; half /= 2)
-      for (int lane = 0; lane < half; ++lane)
-        left.value[lane] =
-            left.value[lane + half] < left.value[lane] ? left.value[lane + half] : left.value[lane];
-    return left.value[0];
+  // The minimum of the 16 numbers; halves their count at each step, because that vectorises if the
+  // counts are constants.
+  double least() const { return least_of<tile_width>(value); }
+
+ private:
+  template <int count>
+  static SALEBRA_INLINE double least_of(const double* numbers) {
+    if constexpr (count == 1) {
+      return numbers[0];
+    } else {
+      double less[count / 2];
+      for (int lane = 0; lane < count / 2; ++lane)
+        less[lane] = numbers[lane + count / 2] < numbers[lane] ? numbers[lane + count / 2]
+                                                               : numbers[lane];
+      return least_of<count / 2>(less);
+    }
   }
 };
 
@@ -366,11 +374,19 @@ SALEBRA_INLINE void for_runs(Size count, const Body& body) {
   if (first < count) body(first, count - first);
 }
 
+// Cells that gap() prefetches ahead.
+inline constexpr Size prefetched = 256;
+
 template <class Displacement>
 GapSums gap(const Displacement* u, const GapRow& row) {
   Lanes pressure, free_count, free_g, misfit, distance, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
   for_runs(row.count, [&](Size first, auto width) {
+    // The transform delivers rows in an order that the processor does not predict.
+    for (Size line = 0; line < tile_width; line += 8) {
+      __builtin_prefetch(row.heights + first + prefetched + line);
+      __builtin_prefetch(row.p + first + prefetched + line);
+    }
     Lanes g, close;
     for (int lane = 0; lane < tile_width; ++lane) close.value[lane] = __builtin_inf();
     for (Size i = 0; i < width; ++i) {
