@@ -34,7 +34,8 @@ inline constexpr int max_intervals = 6;
 // minimises the largest error over the frequencies of a grid of 512² cells: linear least squares
 // with the best symbol C of the coarser grid, which is explicit, repeated with larger weights where
 // the error is large (Lawson's algorithm, Rice and Usow (1968)). depth: number of levels, <=
-// max_intervals. Cost: some milliseconds per level, once for each ratio of sides and boundary.
+// max_intervals. Cost: none for square cells and depth <= 4, which are tabulated; otherwise some
+// milliseconds per level, once for each ratio of sides and boundary.
 std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary boundary, int depth);
 
 // The symbol of a kernel that is even along both axes, on a quarter of its period: (period_x/2 + 1,

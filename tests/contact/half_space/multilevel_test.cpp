@@ -212,6 +212,23 @@ TEST_CASE("The multilevel kernel's stencils are as good as the best known of the
   for (std::size_t k = 0; k < best.size(); ++k) CHECK(levels[k].error < 1.4 * best[k]);
 }
 
+TEST_CASE("The tabulated stencils of square cells are those of the fit") {
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    const auto tabulated = multilevel_design(1, boundary, 4);
+    // Deeper kernels are fitted at all their levels.
+    const auto fitted = multilevel_design(1, boundary, 5);
+    for (std::size_t k = 0; k < tabulated.size(); ++k) {
+      const MultilevelStencil &one = tabulated[k].stencil, &other = fitted[k].stencil;
+      REQUIRE(one.radius == other.radius);
+      CHECK(std::abs(tabulated[k].error - fitted[k].error) < 1e-6);
+      // The displacements of a kernel are of the order of 1, and the solve works in float.
+      for (int i = 0; i <= one.radius; ++i)
+        for (int j = 0; j <= one.radius; ++j)
+          CHECK(std::abs(one.weight(i, j) - other.weight(i, j)) < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("A stencil of the wrong scale has an error that gives it away") {
   auto levels = multilevel_design(1, Boundary::periodic, 4);
   const double right = spectral_error(levels, 2, 1, 30);
