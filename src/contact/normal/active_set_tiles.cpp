@@ -135,6 +135,8 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   });
   list_tiles();
   run.has_direction = false;
+  // The processor does not predict where the next tile lies in the fields of all cells.
+  constexpr Index ahead = 16;
   begin_set(
       run, over_tiles<SetSums>([&](Index begin, Index end) {
         SetSums sums;
@@ -143,6 +145,13 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
           const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
           const Index dense = tile.row * grid_.ny + tile.column;
           const Index packed = k * tile_width;
+          if (k + ahead < end) {
+            const Tile next = tiles_[static_cast<std::size_t>(k + ahead)];
+            const Index index = next.row * grid_.ny + next.column;
+            for (const double* field : {run.p, run.g})
+              for (Index line = 0; line < tile_width; line += 8)
+                __builtin_prefetch(field + index + line);
+          }
           std::copy_n(run.p + dense, width, p_ + packed);
           std::copy_n(run.g + dense, width, g_ + packed);
           // Cells of a tile beyond the end of the row are never free.
