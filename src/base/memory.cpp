@@ -40,7 +40,7 @@ void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t cache_line = 64;
-  const std::size_t alignment = bytes >= 2 * large_page ? large_page : cache_line;
+  const std::size_t alignment = bytes >= large_page ? large_page : cache_line;
   // aligned_alloc() requires a multiple of the alignment; the memory beyond `bytes` is never
   // touched.
   void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);

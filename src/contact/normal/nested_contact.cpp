@@ -121,13 +121,14 @@ class RowStretch {
         p_with_halo_(static_cast<std::size_t>(coarse + 3)),
         u_with_halo_(p_with_halo_) {}
 
-  void load(const CoarseSolution& from, Index row) {
+  // Takes a row of the pressure, gap and heights of a coarse solution.
+  void load(const CoarseSolution& from, const double* pressure, const double* gap,
+            const double* heights) {
     float *p = p_with_halo_.data() + 1, *u = u_with_halo_.data() + 1;
-    const double* heights = from.grid.heights.values + row * coarse_;
     const double zero = from.grid.heights.zero;
     for (Index j = 0; j < coarse_; ++j) {
-      p[j] = static_cast<float>(from.pressure(row, j));
-      u[j] = static_cast<float>(from.gap(row, j) + (heights[j] - zero) - from.plane_height);
+      p[j] = static_cast<float>(pressure[j]);
+      u[j] = static_cast<float>(gap[j] + (heights[j] - zero) - from.plane_height);
     }
     for (const Index j : {Index(-1), coarse_, coarse_ + 1}) {
       p[j] = p[into(j, coarse_, boundary_)];
@@ -218,18 +219,6 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
   const Index coarse_ny = coarse.grid.grid.ny, ny = fine.grid.ny;
   const auto along_y = interpolation(coarse_ny, ny, boundary);
   const auto along_x = interpolation(coarse.grid.grid.nx, fine.grid.nx, boundary);
-  const auto size = static_cast<std::size_t>(coarse_rows.count() * ny);
-  const auto p_rows = large_array<float>(size), u_rows = large_array<float>(size);
-  parallel::for_slabs(
-      coarse_rows.count(),
-      [&](Index begin, Index end) {
-        RowStretch stretch(coarse_ny, along_y, boundary);
-        for (Index i = begin; i < end; ++i) {
-          stretch.load(coarse, i);
-          stretch.write(p_rows.get() + i * ny, u_rows.get() + i * ny);
-        }
-      },
-      coarse_rows.count() * coarse_ny);
   // The window of coarse rows from which the rows of process `rank` are interpolated.
   const auto wanted = [&](int rank) {
     const Index begin = fine.rows.begin_of(rank), end = fine.rows.end_of(rank);
@@ -239,20 +228,39 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
   };
   const RowExchange neighbours(coarse_rows, wanted, edge_of(boundary));
   const Index first = wanted(fine.rows.communicator().rank()).first;
-  const std::size_t row_bytes = static_cast<std::size_t>(ny) * sizeof(float);
-  std::vector<std::byte> p_buffer, u_buffer;
-  const auto p_places = neighbours.fetch(p_rows.get(), row_bytes, row_bytes, p_buffer);
-  const auto u_places = neighbours.fetch(u_rows.get(), row_bytes, row_bytes, u_buffer);
+  const std::size_t row_bytes = static_cast<std::size_t>(coarse_ny) * sizeof(double);
+  std::array<std::vector<std::byte>, 3> buffers;
+  const auto fetch = [&](const double* rows, std::vector<std::byte>& buffer) {
+    return neighbours.fetch(rows, row_bytes, row_bytes, buffer);
+  };
+  const auto pressures = fetch(coarse.pressure.data(), buffers[0]),
+             gaps = fetch(coarse.gap.data(), buffers[1]),
+             heights = fetch(coarse.grid.heights.values, buffers[2]);
   parallel::for_slabs(
       fine.rows.count(),
       [&](Index begin, Index end) {
+        RowStretch stretch(coarse_ny, along_y, boundary);
+        // The last four coarse rows, interpolated along y, each at its index modulo 4.
+        std::vector<float> stretched(static_cast<std::size_t>(8 * ny));
+        std::array<std::size_t, 4> held;
+        held.fill(pressures.size());
         for (Index i = begin; i < end; ++i) {
           const Weights& w = along_x[static_cast<std::size_t>(fine.rows.begin() + i)];
           std::array<const float*, 4> p{}, u{};
           for (std::size_t k = 0; k < 4; ++k) {
-            const auto index = static_cast<std::size_t>(w.base - 1 - first) + k;
-            p[k] = static_cast<const float*>(p_places[index]);
-            u[k] = static_cast<const float*>(u_places[index]);
+            const auto row = static_cast<std::size_t>(w.base - 1 - first) + k;
+            float* p_row = stretched.data() + 2 * static_cast<Index>(row % 4) * ny;
+            float* u_row = p_row + ny;
+            if (held[row % 4] != row) {
+              const auto values = [&](const std::vector<const void*>& rows) {
+                return static_cast<const double*>(rows[row]);
+              };
+              stretch.load(coarse, values(pressures), values(gaps), values(heights));
+              stretch.write(p_row, u_row);
+              held[row % 4] = row;
+            }
+            p[k] = p_row;
+            u[k] = u_row;
           }
           predict_row({w, p, u}, fine, i, step, pressure + i * ny);
         }
