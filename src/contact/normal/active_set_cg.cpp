@@ -346,7 +346,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ScaledOperatingPoint& target,
   } else {
     run.plane_height = target.value;
   }
-  multilevel_share_ = limits.multilevel_share;
+  multilevel_share_ = limits.multilevel_share.value_or(worthwhile_share(false));
   auto [plane_height, residual] =
       dense_gap(run, false, run.load_given() && !limits.expected_plane_height.has_value());
   // Even a start that meets the tolerance is iterated once. Otherwise, if each of several contacts

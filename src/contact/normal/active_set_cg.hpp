@@ -218,6 +218,10 @@ class ActiveSetCg {
   const Number* pressure_of(const Run& run, Index row, Number* buffer) const;
   void choose_tiles(Run& run, double margin);
   void list_tiles();
+  double points_of_transform() const {
+    return static_cast<double>(operators_->symbol().period_x * operators_->symbol().period_y);
+  }
+  double worthwhile_share(bool punch) const;
   void choose_operator();
   void hold_punch_set(const double* p, double bound);
   void begin_punch();
@@ -252,7 +256,7 @@ class ActiveSetCg {
   const TileKernels<Real>& kernels_;
   std::optional<MultilevelKernel> multilevel_;  // made at first use
   bool operator_chosen_ = false;                // whether choose_operator() ran in this solve
-  MultilevelShare multilevel_share_;            // from the limits
+  double multilevel_share_ = 0;                 // see MultilevelShare
   bool spectrum_in_pool_ = false;  // whether compliance_ keeps its spectrum in the pool
   // Whether iterations apply the multilevel kernel instead of an exact Fourier transform.
   bool on_multilevel_ = false;

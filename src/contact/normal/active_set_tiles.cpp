@@ -8,20 +8,6 @@
 #include "tile_sums.hpp"
 
 namespace salebra::detail {
-namespace {
-
-// Returns the fraction of the points that the first tiles of a solve may hold for the multilevel
-// kernel to be worthwhile; later there are fewer tiles. Measured on one core (bench/contact): the
-// multilevel kernel is as fast as a transform if the tiles hold about a third of the points of
-// 512², slightly more than half of the points of 1024², or all points of 2048². Work other than
-// that of the stencils weighs less on large grids.
-double worthwhile_share(double points) {
-  const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
-  return doublings < -0.1 ? 0 : 0.35 * std::pow(1.7, std::max(doublings, 0.0));
-}
-
-}  // namespace
-
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
   return {tiles_.data(),
@@ -94,6 +80,19 @@ void ActiveSetCg<Real>::list_tiles() {
   choose_operator();
 }
 
+// Returns the fraction of the points that the first tiles of a solve may hold for the multilevel
+// kernel to be worthwhile; later there are fewer tiles. Measured on one core (docs/performance.md):
+// the multilevel kernel is as fast as a transform if the tiles of a contact hold about 0.6 of the
+// points of 512², or all points of 1024². All tiles of a punch hold cells in contact, and the punch
+// needs fewer exact transforms: there the limit is 0.85, down to 256². Work other than that of the
+// stencils weighs less on large grids.
+template <class Real>
+double ActiveSetCg<Real>::worthwhile_share(bool punch) const {
+  const double doublings = 0.5 * std::log2(points_of_transform() / (512.0 * 512.0));
+  if (doublings < -0.1 && !punch) return 0;
+  return (punch ? 0.85 : 0.6) * std::pow(1.7, std::max(doublings, 0.0));
+}
+
 // Chooses the multilevel kernel if few tiles are in use: its work grows with the number of tiles,
 // that of a transform does not. The choice is made once per solve, since a change of the operator
 // costs more than it saves.
@@ -102,15 +101,12 @@ void ActiveSetCg<Real>::choose_operator() {
   if constexpr (std::is_same_v<Real, float>) {
     if (!operator_chosen_) {
       operator_chosen_ = true;
-      const double points =
-          static_cast<double>(operators_->symbol().period_x * operators_->symbol().period_y);
-      const double most = multilevel_share_.value_or(worthwhile_share(points));
       double tile_points = 0;  // over all processes
       for (const double of_block : over_tiles<double>([](Index begin, Index end) {
              return static_cast<double>((end - begin) * tile_width);
            }))
         tile_points += of_block;
-      if (tile_points > most * points) return;
+      if (tile_points > multilevel_share_ * points_of_transform()) return;
       if (!multilevel_) multilevel_ = operators_->multilevel();
       on_multilevel_ = multilevel_.has_value();
     }

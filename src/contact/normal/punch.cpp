@@ -112,7 +112,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
                                            Field* pressure) {
   PunchOutcome outcome;
   reset();
-  multilevel_share_ = limits.multilevel_share;
+  multilevel_share_ = limits.multilevel_share.value_or(worthwhile_share(true));
   hold_punch_set(p, bound);
   std::fill_n(g_, tile_points(), -1.0);
   begin_punch();
