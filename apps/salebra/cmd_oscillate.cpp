@@ -283,7 +283,8 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
     Json object = to_json(outcome);
     if (arguments.decay_length)
       object.add(json_of(exponential_loss(outcome, *arguments.decay_length)));
-    const AssumptionReport assumptions{{checked[k]}};
+    const bool slips = outcome.frictional && std::isfinite(outcome.friction_coefficient);
+    const AssumptionReport assumptions{.cases = {checked[k]}, .slip_followed = slips};
     if (single) {
       assumptions.answer(session, object);
     } else {

@@ -124,9 +124,13 @@ void run(ViscoelasticArguments arguments, Session& session) {
   if (session.has_plot()) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, losses);
-    figure.caption += fmt::format(" Indenter: {}, δ = {}.", arguments.indenter.law,
-                                  format_quantity(indentation, Dimension::length, 4)) +
-                      motion_of_caption(arguments);
+    figure.caption +=
+        fmt::format(" Indenter: {}, δ = {}; shear modulus {} (relaxed) to {}.",
+                    arguments.indenter.in_words(),
+                    format_quantity(indentation, Dimension::length, 4),
+                    format_quantity(prony.relaxed_modulus, Dimension::pressure, 4),
+                    format_quantity(prony.unrelaxed_modulus(), Dimension::pressure, 4)) +
+        motion_of_caption(arguments);
     assumptions.state_in(figure);
     session.plot(figure);
   }

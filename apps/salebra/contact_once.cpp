@@ -158,8 +158,13 @@ class OneContact {
     }
     if (state_.converged() && session_.has_output())
       write_contact(arguments_, session_, surface_.grid, state_, beside_, distributions_);
-    if (state_.converged() && session_.has_plot())
-      session_.plot(figures::figure_of(surface_.grid, state_));
+    if (state_.converged() && session_.has_plot()) {
+      figures::Figure figure = figures::figure_of(surface_.grid, state_);
+      if (arguments_.hardness)
+        figure.caption +=
+            " Hardness: " + format_quantity(*arguments_.hardness, Dimension::pressure, 3) + ".";
+      session_.plot(figure);
+    }
     session_.answer(answer_);
     require_convergence();
     arguments_.checkpoint.remove(session_);

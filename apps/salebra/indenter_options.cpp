@@ -53,6 +53,10 @@ std::vector<std::pair<std::string, const std::optional<double>*>> IndenterOption
           {"--edge-radius", &edge_radius}};
 }
 
+std::string IndenterOptions::in_words() const {
+  return law + (radius ? ", R = " + format_quantity(*radius, Dimension::length, 4) : "");
+}
+
 void IndenterOptions::require_only(const std::vector<std::string>& wanted,
                                    const std::string& chosen) const {
   for (const auto& [option, value] : known())

@@ -20,6 +20,8 @@ struct IndenterOptions {
   void add_to(Command& app, const std::vector<std::string>& others = {});
   /// Throws InvalidInput for a missing option and for options that the shape does not have.
   std::shared_ptr<const IndenterProfile> indenter() const;
+  /// "paraboloid, R = 5 mm"; other shapes by their name.
+  std::string in_words() const;
   /// Throws InvalidInput if an option of an indenter was given that is not among `wanted`. chosen:
   /// the choice that the error message names, such as "--law cone".
   void require_only(const std::vector<std::string>& wanted, const std::string& chosen) const;

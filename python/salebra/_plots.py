@@ -59,7 +59,7 @@ def _text(markup: str) -> str:
 def _wrapped(markup: str, length: float, size: float) -> str:
     """Text in lines of a length, both in points."""
     # A number stays with its unit, and a symbol with its value.
-    joined = re.sub(r"(?<=\d) (?=\S)|(?<=[=−+±]) | (?==)|(?<=N) (?=s/m)| (?=[^{}]*\})", "\u00a0", markup)
+    joined = re.sub(r"(?<=\d) (?=\S)|(?<=[=−+±…]) | (?=[=±…])|(?<=\b[A-Z]) (?=[A-Z])|(?<=N) (?=s/m)| (?=[^{}]*\})", "\u00a0", markup)
     lines = textwrap.wrap(joined, max(16, int(length / (0.55 * size))), break_long_words=False, break_on_hyphens=False)
     return "\n".join(map(_text, lines))
 

@@ -315,10 +315,11 @@ InvalidInput
         const bool loads = std::ranges::any_of(
             results, [&](const DampingResult& one) { return one.force != results.front().force; });
         curve_of.setting =
-            figures::setting_text(figures::motion_text(described.front(), curve_of.coordinate),
+            figures::setting_text(figures::motion_text(described.front(), curve_of.coordinate,
+                                                       known(parameters).excursion),
                                   known(parameters).friction_coefficient,
                                   loads ? ContactParameters::unknown : results.front().force) +
-            ".";
+            fmt::format("; the mean {} is held.", name_of(results.front().hold));
         for (std::size_t i = 0; i < count; ++i)
           curve_of.results.push_back(
               assumptions ? to_be_judged(results[i], law, described[i], parameters, curve)

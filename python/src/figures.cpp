@@ -84,6 +84,7 @@ Figure drawn(const CurveOf<DampingPoint>& curve) { return figure_of(curve.result
 
 Figure drawn(const CurveOf<ViscoelasticCycle>& curve) {
   Figure figure = figure_of(curve.coordinate, curve.values, curve.results);
+  figure.caption += curve.setting;
   state_validity(figure, std::span<const AssumptionVerdict>());
   return figure;
 }

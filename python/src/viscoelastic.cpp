@@ -11,6 +11,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
@@ -226,11 +227,17 @@ void bind_rough_cycles(nb::module_& m) {
         options.tolerance = tolerance;
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return CurveOf<ViscoelasticCycle>{
+          CurveOf<ViscoelasticCycle> curve{
               "angular_frequency", angular_frequencies.values,
               viscoelastic_sweep(surface.surface, material.pressed(), prony, oscillation(motion),
                                  operating_point_of(pressure, {}, indentation, force),
                                  angular_frequencies.values, options)};
+          curve.setting =
+              figures::setting_text(
+                  figures::motion_text(motion_of(oscillation(motion)), "angular_frequency"),
+                  ContactParameters::unknown, ContactParameters::unknown) +
+              ".";
+          return curve;
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("prony"), nb::arg("motion"),

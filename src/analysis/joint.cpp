@@ -186,8 +186,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (const auto sliding = std::ranges::count(solution.losses, Regime::sliding, &JointLoss::regime);
       sliding > 0)
     solution.warnings.push_back(fmt::format(
-        "the contact slides as a whole at {} of {} motions: Coulomb friction with T = μF, not a "
-        "damper",
+        "the contact slides at {} of {} motions, with T above 0.95 μF: its loss is that of Coulomb "
+        "friction, not of a damper",
         sliding, solution.losses.size()));
 
   const JointLoss& largest =

@@ -381,7 +381,8 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
           first_crossings([&](double x) { return springs.change(x); }, shortest, longest)};
 }
 
-// In gross sliding, springs that still stick may carry this fraction of the mean normal force.
+// In gross sliding, a contact as small as the region that still sticks may carry this fraction of
+// the mean normal force.
 constexpr double stuck_share = 0.05;
 
 // Returns whether (almost) all springs slip. Lengths are in units of μ/g. displacement: u_x under

@@ -192,7 +192,13 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
       if (sample.converged && std::isfinite(sample.pressure) &&
           std::isfinite(sample.tangential_stiffness))
         quotient.y[k++] /= sample.normal_stiffness;
-    if (std::ranges::any_of(quotient.y, [](double y) { return std::isfinite(y); }))
+    std::erase_if(quotient.y, [](double y) { return !std::isfinite(y); });
+    if (quotient.y.empty()) continue;
+    // A ratio that is the same at all loads is that of the moduli and no result.
+    const auto [least, most] = std::ranges::minmax(quotient.y);
+    if (quotient.y.size() > 1 && most - least < 1e-9 * most)
+      stiffness.curves.back().name += " = (G^{*}/E^{*})K, assumed";
+    else
       ratio.curves.push_back(std::move(quotient));
   }
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));

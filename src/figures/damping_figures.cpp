@@ -195,9 +195,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   const Axis x = axis_of(quantity, grows_by_factors(values));
   Figure figure{
       .kind = "damping",
-      .caption =
-          "Loss of a motion with its numerical error (band), and by the closed form for small "
-          "amplitudes, Eq. (12) or (15).",
+      .caption = "Loss of a motion, and by the closed form for small amplitudes, Eq. (12) or (15).",
       .columns = 3,
       .one_legend = true};
   figure.panels = {{.title = "energy lost in a cycle",
@@ -288,6 +286,9 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
         figure.panels[panel].curves.back().style = Style::dashed;
   }
   std::erase_if(figure.panels, [](const Panel& panel) { return panel.curves.empty(); });
+  if (std::ranges::any_of(figure.panels.front().curves,
+                          [](const Curve& curve) { return !curve.low.empty(); }))
+    figure.caption += " Bands are numerical errors.";
   for (Panel& panel : figure.panels) {
     std::vector<double> all;
     for (const Curve& curve : panel.curves)

@@ -77,14 +77,15 @@ std::vector<std::string> wrapped(std::string_view text, double most) {
   // A number stays with its unit, a symbol with its value, and a formula in one line.
   const auto joined = [&](std::string_view next) {
     const std::string_view last = std::string_view(word).substr(word.rfind(' ') + 1);
-    constexpr auto links = std::to_array<std::string_view>({"/", "−", "+", "±", "ln"});
+    constexpr auto links = std::to_array<std::string_view>({"/", "−", "+", "±", "…", "ln"});
     const bool symbol =
         (last.size() == 1 && std::isalpha(static_cast<unsigned char>(last[0])) && last != "a") ||
         std::ranges::find(links, last) != links.end();
     return (!word.empty() &&
             (std::isdigit(static_cast<unsigned char>(word.back())) || word.back() == '=')) ||
            symbol || next.starts_with("= ") || next.starts_with("s/m") || next.starts_with("ln") ||
-           next.starts_with("/ ") || next.starts_with("− ") || next.starts_with("± ");
+           next.starts_with("/ ") || next.starts_with("− ") || next.starts_with("± ") ||
+           next.starts_with("… ");
   };
   for (std::size_t k = 0; k < text.size(); ++k) {
     braces += (text[k] == '{') - (text[k] == '}');
@@ -273,7 +274,10 @@ class PanelScript {
     if (raster_ && panel_.image->color_bar)
       return beside(raster_->scale, scale_label_) + 0.7 * layout_.font +
              0.05 * layout_.frame_width();
-    return right_ ? beside(*right_, right_label_) : 1.7 * layout_.font;
+    if (right_) return beside(*right_, right_label_);
+    // A label of x may be longer than the frame.
+    const double longer = layout_.character() * characters(x_.label) - layout_.frame_width();
+    return 1.7 * layout_.font + std::max(0.0, longer / 2);
   }
 
   /// Distance of the frame of a map from the sides of its room, in pixels.
@@ -456,7 +460,9 @@ class PanelScript {
     line("set pointintervalbox 0.01");
     line("set border lw 0.8\nset tics out nomirror scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(title_));
-    line("set key {} samplen 2.4 spacing 1.05 width 0.5", legend_);
+    // Otherwise gnuplot may need more rows than have room.
+    line("set key {} {} samplen 2.4 spacing 1.05 width 0.5", legend_,
+         legend_rows() > 0 ? fmt::format("vertical maxrows {}", legend_rows()) : "");
     if (names().empty() || !own_legend_) line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
     write_axis("x", x_, {x_.label});

@@ -77,7 +77,7 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
        .x = axis_of(slides ? "tangential_amplitude" : "tangential_force", grows_by_factors(along)),
        .y = axis_of("work_per_cycle", spans_decades(work), "loss W in a cycle"),
        .legend = Legend::top_left});
-  figure.panels.back().curves = {{.name = several ? "with 95 % limits" : "",
+  figure.panels.back().curves = {{.name = several ? "mean, 95 % limits over surfaces" : "",
                                   .quantity = "work_per_cycle",
                                   .x = along,
                                   .y = work,
@@ -85,12 +85,19 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
                                   .high = high,
                                   .style = Style::line_and_points}};
   figure.panels.back().y.prefix_of = work[largest];
+  double sliding = HUGE_VAL;
+  for (std::size_t k = 0; k < losses.size(); ++k)
+    if (losses[k].regime == Regime::sliding) sliding = std::min(sliding, along[k]);
+  if (std::isfinite(sliding))
+    figure.panels.back().ranges.push_back(
+        {.low = sliding, .high = 10 * along[largest], .vertical = true, .name = "sliding"});
   figure.panels.push_back(
       {.title = fmt::format("largest motion, {}: W = {}", name_of(losses[largest].regime), loss),
-       .caption = std::string("Loop of the largest motion with its backbone.") +
-                  (losses[largest].regime == Regime::sliding
-                       ? " It counts as sliding: springs that stick carry below 5 % of F."
-                       : ""),
+       .caption =
+           std::string("Loop of the largest motion with its backbone.") +
+           (losses[largest].regime == Regime::sliding
+                ? " It counts as sliding: F_x is above 95 % of µF, or all of the contact slips."
+                : ""),
        .x = axis_of("tangential_amplitude", false, "displacement x"),
        .y = axis_of("tangential_force", false, "tangential force F_x"),
        .legend = Legend::top_left});

@@ -27,44 +27,45 @@ bool slips(const OscillationOutcome& outcome) {
   return outcome.frictional && std::isfinite(outcome.friction_coefficient);
 }
 
-/// The loss of the motion as described: with slip where friction is known, followed by that without.
-std::string loss_text(const OscillationOutcome& outcome) {
-  const auto text = [&](double work, double error) {
-    return std::abs(work) > outcome.uncertain_loss() ? error_text(work, error, Dimension::energy)
-                                                     : std::string("no loss");
-  };
-  const std::string stick = text(outcome.work_per_cycle(), outcome.error_estimate());
-  std::string all = stick;
-  if (slips(outcome)) {
-    const CycleResult& cycle = *outcome.frictional;
-    const std::string slip = text(cycle.work_per_cycle, cycle.step_error);
-    if (slip != stick) all = slip + " with slip, " + stick + " without slip";
-  }
-  return all.starts_with("no loss") ? all : "W = " + all;
+/// The loss without slip, or that with slip: of the motion as described where friction is known.
+std::string loss_text(const OscillationOutcome& outcome, bool slip) {
+  const CycleResult& cycle = slip ? *outcome.frictional : *outcome.cycle;
+  const double error = slip ? cycle.step_error : outcome.error_estimate();
+  if (!(std::abs(cycle.work_per_cycle) > outcome.uncertain_loss())) return "no loss";
+  return "W = " + error_text(cycle.work_per_cycle, error, Dimension::energy) +
+         (slip ? " with slip" : "");
 }
 
 Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {
   const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
   const double predicted = outcome.intervals.small_amplitude_work;
   const bool lossless = !outcome.over(predicted);
-  const double reference = lossless ? outcome.elastic_energy() : predicted;
+  // A loss by slip that is far above that without slip would hide it.
+  const bool dominated = slips(outcome) && outcome.frictional->work_per_cycle > 10 * predicted;
+  const double reference = dominated ? 1 : lossless ? outcome.elastic_energy() : predicted;
   Panel panel;
   panel.title = title;
   panel.x = {.label = "time in periods", .low = 0, .high = 1};
-  const std::string work = drag ? "energy released" : "W(t)";
-  panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
-                               : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
-  const auto add = [&](const char* name, const CycleResult& cycle) {
+  const std::string work = drag ? "energy lost" : "W(t)";
+  if (dominated)
+    panel.y = {.label = work, .unit = "J"};
+  else
+    panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
+                                 : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
+  const auto add = [&](const char* name, const CycleResult& cycle, int color) {
     std::vector<double> values =
         column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
     for (double& value : values) value /= reference;
-    panel.curves.push_back(
-        {.name = name, .x = column(cycle, &CycleSample::t), .y = std::move(values)});
+    panel.curves.push_back({.name = name,
+                            .x = column(cycle, &CycleSample::t),
+                            .y = std::move(values),
+                            .color = color});
   };
-  add(slips(outcome) ? "no slip" : "", *outcome.cycle);
-  if (slips(outcome)) add("friction", *outcome.frictional);
+  if (!dominated) add(slips(outcome) ? "without slip" : "", *outcome.cycle, 0);
+  if (slips(outcome)) add("with slip", *outcome.frictional, 1);
   panel.legend = Legend::top_left;
-  if (!lossless) panel.lines.push_back({.at = 1, .name = drag ? "Eq. (15)" : "Eq. (12)"});
+  if (!lossless && !dominated)
+    panel.lines.push_back({.at = 1, .name = drag ? "Eq. (15)" : "Eq. (12)"});
   return panel;
 }
 
@@ -78,8 +79,8 @@ Panel loop_panel(const OscillationOutcome& outcome, const std::string& title) {
                             .x = column(cycle, &CycleSample::tangential),
                             .y = column(cycle, &CycleSample::tangential_force)});
   };
-  add("no slip", *outcome.cycle);
-  if (slips(outcome)) add("friction", *outcome.frictional);
+  add("without slip", *outcome.cycle);
+  if (slips(outcome)) add("with slip", *outcome.frictional);
   if (outcome.coupled) add("coupled", *outcome.coupled);
   panel.legend = Legend::top_left;
   return panel;
@@ -118,7 +119,7 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   // That nothing was checked is said once for all contacts.
   std::vector<std::string> validity;
   for (std::size_t k = 0; k < assumptions.size(); ++k)
-    validity.push_back(validity_text(verdicts_of(assumptions.subspan(k, 1), false)));
+    validity.push_back(validity_text(verdicts_of(assumptions.subspan(k, 1), slips(outcomes[k]))));
   const bool unchecked =
       !single && !validity.empty() && std::ranges::all_of(validity, [](const std::string& text) {
         return text == "validity not checked";
@@ -126,8 +127,15 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   for (std::size_t k = 0; k < count; ++k) {
     const bool stated = !unchecked && k < validity.size() && !validity[k].empty();
     figure.panels.push_back(work_panel(outcomes[k], (single ? "" : names[k] + ": ") +
-                                                        loss_text(outcomes[k]) +
+                                                        loss_text(outcomes[k], slips(outcomes[k])) +
                                                         (stated ? " (" + validity[k] + ")" : "")));
+  }
+  // The title has the loss of the motion as described.
+  if (slips(first)) {
+    std::vector<std::string> losses;
+    for (std::size_t k = 0; k < count; ++k)
+      losses.push_back((single ? "" : names[k] + ", ") + loss_text(outcomes[k], false));
+    figure.caption += fmt::format(" Without slip: {}.", fmt::join(losses, "; "));
   }
   if (unchecked) figure.title += " (" + validity[0] + ")";
   figure.one_legend = true;
@@ -142,7 +150,7 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
     }
   // One sentence for the maps, and one for each kind of curves.
   const auto to = [&](std::size_t last) {
-    return single ? "" : fmt::format("to ({}) ", char('a' + last));
+    return single ? "" : fmt::format("{} ({}) ", count == 2 ? "and" : "to", char('a' + last));
   };
   figure.panels[0].caption =
       to(count - 1) + "Cells always in contact (black) or during a part of the cycle (grey).";

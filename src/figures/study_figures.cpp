@@ -89,8 +89,11 @@ void add_answer(const StudyNumbers& numbers, Panel& damping) {
   const bool limits = have_limits(means);
   const auto at = std::size_t(means.rend() - last) - 1;
   const auto text = [&](const StatedMean& one) {
-    return limits ? interval_text(one.mean, one.low, one.high, Dimension::damping)
-                  : error_text(one.mean, one.error, Dimension::damping);
+    if (!limits) return error_text(one.mean, one.error, Dimension::damping);
+    const std::string interval = interval_text(one.mean, one.low, one.high, Dimension::damping);
+    return one.error > 0 ? fmt::format("{}, numerical error {:.2g} %", interval,
+                                       100 * one.error / std::abs(one.mean))
+                         : interval;
   };
   const bool several = !numbers.other_directions.empty();
   const auto way = [&](double direction) {
@@ -186,6 +189,12 @@ class Pictures {
     if (n_.motion) of_ratios();
     std::erase_if(pictures_,
                   [](const Figure& picture) { return !shows_anything(picture.panels.front()); });
+    // The bands of many models would hide each other.
+    if (n_.models.size() > 4)
+      for (Figure& picture : pictures_)
+        for (Curve& curve : picture.panels.front().curves)
+          if (curve.style == Style::line_and_points && curve.color != int(ContactModel::bem))
+            curve.low = curve.high = {};
     return std::move(pictures_);
   }
 
@@ -237,10 +246,13 @@ class Pictures {
     panel.legend = Legend::bottom_left;
     const EnsembleMean length = decay_length();
     if (!std::isfinite(length.mean)) return;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < n_.fits.size(); ++i)
+      ratios.push_back(n_.fits[i].decay_length / n_.rms_height[i]);
     panel.title =
         fmt::format("decay length l = {} = {:.3g} h_{{rms}}{}",
                     interval_text(length.mean, length.low, length.high, Dimension::length),
-                    length.mean / mean_of(n_, n_.rms_height).mean, n_.law);
+                    mean_of(n_, ratios).mean, n_.law);
     const auto window = [&](double PressureWindow::*end) {
       std::vector<double> ends;
       for (const ExponentialFit& fit : n_.fits) ends.push_back(fit.window.*end);
@@ -455,7 +467,11 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
                                                     "local-length", "damping-ratio"};
   figure.columns = results.size() == 1 ? 2 : int(results.size());
   std::vector<std::vector<Figure>> points;
-  for (const StudyResult& result : results) points.push_back(study_pictures(numbers_of(result)));
+  std::vector<StudyNumbers> answers;
+  for (const StudyResult& result : results) {
+    answers.push_back(numbers_of(result));
+    points.push_back(study_pictures(answers.back()));
+  }
   for (const Figure& first : points.front()) {
     std::vector<Panel*> row;
     for (std::vector<Figure>& point : points)
@@ -469,9 +485,10 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
       Panel& panel = *row[i];
       if (i == 0)
         panel.caption =
-            first.title + (first.kind == "damping-curve"
+            first.title + (first.kind != "damping-curve" ? "."
+                           : answers.front().slips
                                ? ": points, of the motion as described; lines, without slip."
-                               : ".");
+                               : ": points, with the error of the surface; lines, by models.");
       else
         for (ReferenceLine& line : panel.lines) line.name.clear();
       panel.detail = std::ranges::find(details, first.kind) != details.end();
@@ -486,18 +503,22 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
   }
   figure.caption =
       std::string("Contact models of rough surfaces, with ") +
-      (results.front().realisations.size() > 1 ? "95 % bands."
+      (results.front().realisations.size() > 1 ? "95 % bands over the surfaces, without numerical "
+                                                 "errors."
                                                : "numerical errors of the damping constants; a bar "
                                                  "that is not seen is shorter than its "
                                                  "symbol.") +
-      (results.front().configuration.adhesion ? ""
-                                              : " " + motion_sentence(numbers_of(results.front())));
+      (results.front().configuration.adhesion ? "" : " " + motion_sentence(answers.front()));
   std::set<std::string> warned;
-  for (const StudyResult& result : results)
+  const auto warn = [&](const std::string& name, const std::string& text) {
+    if (warned.insert(name).second)
+      figure.caption += " Warning: " + plain_text(text.substr(0, text.find(';'))) + ".";
+  };
+  for (const StudyResult& result : results) {
+    for (const std::string& warning : result.warnings) warn(warning, warning);
     for (const EnsembleWarning& warning : result.ensemble_warnings)
-      if (warned.insert(warning.name).second)
-        figure.caption +=
-            " Warning: " + plain_text(warning.text.substr(0, warning.text.find(';'))) + ".";
+      warn(warning.name, warning.text);
+  }
   return figure;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of losses on a viscoelastic body, of an indenter and of a rough surface, and of its creep.
 #include <algorithm>
+#include <numbers>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
@@ -11,9 +12,7 @@ namespace salebra::figures {
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticLoss>& losses) {
-  Axis x = axis_of(quantity, grows_by_factors(values));
-  // "1 … 1000 Hz" rather than "0.001 … 1 kHz".
-  if (x.logarithmic) x.prefix_of = values.front();
+  const Axis x = axis_of(quantity, grows_by_factors(values));
   const auto curve = [&](const char* name, const char* of, const auto& value) {
     Curve out{.name = name, .quantity = of, .x = values, .style = Style::line_and_points};
     for (const ViscoelasticLoss& loss : losses) out.y.push_back(value(loss));
@@ -49,7 +48,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
   total.color = 6;
   figure.panels.back().curves.push_back(std::move(total));
   figure.panels.push_back(
-      {.title = "Complex shear modulus",
+      {.title = "complex shear modulus",
        .caption = "Complex modulus.",
        .x = x,
        .y = {.label = "shear modulus G′, G″", .unit = "Pa", .logarithmic = true},
@@ -63,9 +62,14 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticCycle>& cycles) {
-  const Axis x = axis_of(quantity, spans_decades(values));
+  // Users give frequencies in Hz.
+  const bool angular = quantity == "angular_frequency";
+  std::vector<double> along = values;
+  if (angular)
+    for (double& value : along) value /= 2 * std::numbers::pi;
+  const Axis x = axis_of(angular ? "frequency" : quantity, grows_by_factors(values));
   const auto curve = [&](const char* name, const char* of, double ViscoelasticCycle::*value) {
-    Curve out{.name = name, .quantity = of, .x = values};
+    Curve out{.name = name, .quantity = of, .x = along, .style = Style::line_and_points};
     for (const ViscoelasticCycle& cycle : cycles) out.y.push_back(cycle.*value);
     return out;
   };
@@ -74,17 +78,32 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                 .caption =
                     "A rough contact on a viscoelastic body. (a) Energy lost in a cycle by the "
                     "normal and the tangential motion, with the part that cells release when they "
-                    "leave. (b) Stiffnesses in and out of phase.",
+                    "leave, and their sum with its numerical error (band). (b) Stiffnesses in and "
+                    "out of phase.",
                 .columns = 2};
-  figure.panels.push_back({.title = "Energy dissipated in a cycle",
-                           .x = x,
-                           .y = axis_of("work_per_cycle", true, "loss W"),
-                           .legend = Legend::top_left});
+  const C& last = cycles.back();
+  figure.panels.push_back(
+      {.title =
+           "W = " + error_text(last.work_per_cycle, last.work_per_cycle_error, Dimension::energy) +
+           ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
+           value_text(along.back(), x.unit),
+       .x = x,
+       .y = axis_of("work_per_cycle", true, "loss W"),
+       .legend = Legend::top_left});
+  figure.panels.back().y.prefix_of = last.work_per_cycle;
   figure.panels.back().curves = {curve("normal", "normal_work", &C::normal_work),
                                  curve("tangential", "tangential_work", &C::tangential_work),
                                  curve("released by leaving cells", "jump_work", &C::jump_work)};
   figure.panels.back().curves.back().style = Style::dashed;
-  figure.panels.push_back({.title = "Dynamic stiffness",
+  Curve total = curve("total", "work_per_cycle", &C::work_per_cycle);
+  total.style = Style::dotted;
+  total.color = 6;
+  for (const C& cycle : cycles) {
+    total.low.push_back(cycle.work_per_cycle - cycle.work_per_cycle_error);
+    total.high.push_back(cycle.work_per_cycle + cycle.work_per_cycle_error);
+  }
+  figure.panels.back().curves.push_back(std::move(total));
+  figure.panels.push_back({.title = "dynamic stiffness",
                            .x = x,
                            .y = {.label = "stiffness", .unit = "N/m", .logarithmic = true},
                            .legend = Legend::top_left});

@@ -128,7 +128,10 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
       }
       for (double& value : columns.back().second) value *= factor;
     }
-  if (!length) detail::refuse(reader.file(), "contains no force curve in its group " + group);
+  if (!length)
+    detail::refuse(reader.file(),
+                   "contains no force curve in its group " + group +
+                       (reader.has("heights") ? ", but a surface; press it first" : ""));
   const std::vector<double> converged =
       reader.has(group + "/converged") ? column("converged") : std::vector<double>{1};
   if (study) {

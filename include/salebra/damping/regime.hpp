@@ -9,7 +9,8 @@ namespace salebra {
 enum class Regime {
   no_slip,       ///< both assumptions of no slip hold: slip changes the loss by at most 5 %
   partial_slip,  ///< some springs slip, others that carry part of the force stick
-  /// All springs slip except those that carry less than 5 % of the mean normal force. If the
+  /// All springs slip except the deepest ones: a contact as small as these carries less than 5 % of
+  /// the mean normal force. At a constant normal force F_x then exceeds 0.95 μF. If the
   /// contact opens in each cycle, sliding means that no spring ever sticks; in case (b) this
   /// happens at velocities v >= v_c = (μ/g) u_z ω with g = K_t/K. For v < v_c, case (b) counts as
   /// sliding only if the slip of closed springs loses more energy than the relaxation of springs
