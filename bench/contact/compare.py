@@ -27,10 +27,11 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 MODULUS_TIMES_SLOPE = 0.1  # E* h' with E* = 1 and rms slope 0.1: f is the pressure over it
 
-PEERS = ["tamaas", "contact_mechanics", "contact_mechanics_dual", "slippy", "polonsky_keer"]
+PEERS = ["tamaas", "contact_mechanics", "contact_mechanics_dual", "slippy", "aspher", "polonsky_keer"]
+FREE = ["tamaas", "contact_mechanics", "slippy", "aspher"]  # those that also solve on an infinite half-space
 # In the measures of peers.py all of them reach about the e_c that they are asked for; the first that is enough counts.
 TOLERANCES = [1e-8, 3e-9, 1e-9, 3e-10, 1e-10, 1e-11]
-# A solve below this many seconds is repeated, and its median counts.
+# A solve below this many seconds of CPU time is repeated, and its median counts.
 WORTH_REPEATING = 20
 
 
@@ -49,16 +50,31 @@ def rough_surface(n, cutoff_cells, seed=1, hurst=0.8, rolloff=8):
     return np.fft.irfft2(modes, (n, n)) * (0.1 / np.sqrt(square))
 
 
-def reached_accuracy(heights, traction, pressure):
-    """e_c; infinite for tractions that do not carry the load."""
-    n = heights.shape[0]
-    traction = np.maximum(traction, 0)
-    if not abs(traction.mean() / pressure - 1) < 1e-6:
-        return np.inf
+def periodic_displacement(traction):
+    n = traction.shape[0]
     q = np.hypot(2 * np.pi * np.fft.fftfreq(n, 1 / n)[:, None],
                  2 * np.pi * np.fft.rfftfreq(n, 1 / n)[None, :])
     q[0, 0] = np.inf
-    gap = np.fft.irfft2(2 / q * np.fft.rfft2(traction), (n, n)) - heights
+    return np.fft.irfft2(2 / q * np.fft.rfft2(traction), (n, n))
+
+
+def free_displacement(traction):
+    """In the middle of cells of constant pressure (Love), by a convolution padded with zeros."""
+    n = traction.shape[0]
+    edge = (np.arange(-n, n + 1) - 0.5) / n
+    x, y = edge[:, None], edge[None, :]
+    corner = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
+    response = np.fft.ifftshift(np.diff(np.diff(corner, axis=0), axis=1)) / np.pi
+    return np.fft.irfft2(np.fft.rfft2(response) * np.fft.rfft2(traction, response.shape), response.shape)[:n, :n]
+
+
+def reached_accuracy(heights, traction, pressure, boundary="periodic"):
+    """e_c; infinite for tractions that do not carry the load."""
+    traction = np.maximum(traction, 0)
+    if not abs(traction.mean() / pressure - 1) < 1e-6:
+        return np.inf
+    displacement = free_displacement if boundary == "free" else periodic_displacement
+    gap = displacement(traction) - heights
     return float(np.sum(traction * (gap - gap.min())) / (traction.sum() * heights.std()))
 
 
@@ -80,7 +96,7 @@ class Results:
 
     @staticmethod
     def key(row):
-        return row["n"], row["cutoff"], row["load"], row["cores"], row["peer"]
+        return row["n"], row["cutoff"], row["load"], row["cores"], row["peer"], row.get("boundary", "periodic")
 
     def add(self, row):
         if "peer" in row:
@@ -88,15 +104,18 @@ class Results:
         with self.file.open("a") as out:
             out.write(json.dumps(row) + "\n")
 
-    def out_of_time_below(self, n, cutoff, load, peer):
-        """A solver that is out of time at one size will be at the next one too."""
-        return any(row.get("over_limit") for (m, *case, _, name), row in self.rows.items()
-                   if m < n and case == [cutoff, load] and name == peer)
+    def earlier(self, *case):
+        """Rows of a cut-off, load, peer and boundary."""
+        return [row for (_, cutoff, load, _, peer, boundary), row in self.rows.items()
+                if (cutoff, load, peer, boundary) == case]
 
-    def tolerance(self, cutoff, load, peer):
+    def out_of_time_below(self, n, *case):
+        """A solver that is out of time at one size will be at the next one too."""
+        return any(row.get("over_limit") and row["n"] < n for row in self.earlier(*case))
+
+    def tolerance(self, *case):
         """That was needed on the largest grid so far, where there is one."""
-        known = [(row["n"], row["tolerance"]) for row in self.rows.values()
-                 if (row["cutoff"], row["load"], row["peer"]) == (cutoff, load, peer) and "tolerance" in row]
+        known = [(row["n"], row["tolerance"]) for row in self.earlier(*case) if "tolerance" in row]
         return max(known)[1] if known else TOLERANCES[0]
 
 
@@ -123,10 +142,10 @@ class Runner:
                                else f"exit status {done.returncode}")
         return json.loads(done.stdout.strip().splitlines()[-1])
 
-    def median(self, command, cores):
-        """Costs of a solve: of several runs where one is short."""
-        runs = [self.process(command, cores)]
-        while len(runs) < self.arguments.repeats and runs[0]["wall"] < WORTH_REPEATING:
+    def median(self, command, cores, first):
+        """Costs of a solve whose first run is given: of several runs where one is short."""
+        runs = [first]
+        while len(runs) < self.arguments.repeats and runs[0]["cpu"] < WORTH_REPEATING:
             runs.append(self.process(command, cores))
         cost = dict(runs[0], runs=len(runs))
         for figure in ("wall", "cpu", "setup", "bytes"):
@@ -144,36 +163,40 @@ class Runner:
     def compiled(self, program, n, pressure, tolerance, cores):
         return [program, self.folder / "heights.raw", n, pressure, tolerance, cores, self.folder / "out.raw"]
 
-    def peer(self, name, n, pressure, tolerance, cores):
+    def peer(self, name, n, pressure, tolerance, cores, boundary):
         if name == "polonsky_keer":
             command = self.compiled(self.arguments.reference, n, pressure, tolerance, cores)
             traction = lambda: np.fromfile(self.folder / "out.raw").reshape(n, n)
         else:
-            python = self.arguments.slippy_python if name == "slippy" else self.arguments.python
+            python = {"slippy": self.arguments.slippy_python, "aspher": self.arguments.aspher_python}.get(
+                name, self.arguments.python)
             out = self.folder / "out.npy"
-            command = [python, HERE / "peers.py", name, self.folder / "heights.npy", pressure, tolerance, out]
+            command = [python, HERE / "peers.py", name, self.folder / "heights.npy", pressure, tolerance, boundary, out]
             traction = lambda: np.load(out)
-        cost = self.median(command, cores)
-        return cost, reached_accuracy(self.heights, traction(), pressure)
+        cost = self.process(command, cores)
+        reached = reached_accuracy(self.heights, traction(), pressure, boundary)
+        return self.median(command, cores, cost) if reached <= self.arguments.target else cost, reached
 
-    def salebra(self, n, pressure, tolerance, cores):
-        cost = self.median(self.compiled(self.arguments.salebra, n, pressure, tolerance, cores), cores)
+    def salebra(self, n, pressure, tolerance, cores, boundary):
+        command = [*self.compiled(self.arguments.salebra, n, pressure, tolerance, cores), boundary]
+        cost = self.median(command, cores, self.process(command, cores))
         own = np.fromfile(self.folder / "out.raw").reshape(n, n)
-        return cost, reached_accuracy(self.heights, own, pressure)
+        return cost, reached_accuracy(self.heights, own, pressure, boundary)
 
-    def case(self, results, n, cutoff, load, cores, name):
+    def case(self, results, n, cutoff, load, cores, name, boundary):
         self.prepare(n, cutoff)
         pressure = load * MODULUS_TIMES_SLOPE
-        row = {"n": n, "cutoff": cutoff, "load": load, "cores": cores, "peer": name, "load_average": os.getloadavg()[0]}
+        row = {"n": n, "cutoff": cutoff, "load": load, "cores": cores, "peer": name, "boundary": boundary,
+               "load_average": os.getloadavg()[0]}
         accuracy = self.arguments.target  # of salebra's run beside a peer that gives no answer
         started = time.monotonic()
-        if results.out_of_time_below(n, cutoff, load, name):
+        if results.out_of_time_below(n, cutoff, load, name, boundary):
             row["over_limit"] = self.arguments.limit
             row["note"] = "over the limit on a smaller grid, not tried"
         else:
             try:
-                for tolerance in [t for t in TOLERANCES if t <= results.tolerance(cutoff, load, name)]:
-                    cost, reached = self.peer(name, n, pressure, tolerance, cores)
+                for tolerance in [t for t in TOLERANCES if t <= results.tolerance(cutoff, load, name, boundary)]:
+                    cost, reached = self.peer(name, n, pressure, tolerance, cores, boundary)
                     row.update(peer_cost=cost, peer_e_c=reached, tolerance=tolerance)
                     if reached <= self.arguments.target:
                         break
@@ -189,7 +212,8 @@ class Runner:
                 row["over_limit"] = self.arguments.limit
             except RuntimeError as failure:
                 row["failure"] = str(failure)[-200:]
-        row["salebra_cost"], row["salebra_e_c"] = self.salebra(n, pressure, min(max(accuracy, 1e-13), 1e-2), cores)
+        row["salebra_cost"], row["salebra_e_c"] = self.salebra(
+            n, pressure, min(max(accuracy, 1e-13), 1e-2), cores, boundary)
         return row
 
 
@@ -197,14 +221,15 @@ def seconds(value):
     return f"{value:.3g}" if value < 100 else f"{value:.0f}"
 
 
-HEAD = ("    N cut     f th  peer                    e_c     set-up    wall     cpu pairs B/cell |"
+HEAD = ("    N cut     f th  peer                      e_c     set-up    wall     cpu pairs B/cell |"
         "  salebra e_c  set-up    wall     cpu pairs B/cell |  wall x   cpu x")
 
 
 def text_of(row):
     own = row["salebra_cost"]
     peer = row.get("peer_cost")
-    head = f"{row['n']:5d} {row['cutoff']:3d} {row['load']:5g} {row['cores']:2d}  {row['peer']:22s}"
+    name = row["peer"] + (", free" if row.get("boundary") == "free" else "")
+    head = f"{row['n']:5d} {row['cutoff']:3d} {row['load']:5g} {row['cores']:2d}  {name:24s}"
 
     def figures(cost, e_c):
         pairs, setup = cost.get("pairs"), cost.get("setup")
@@ -229,31 +254,32 @@ def summary(rows):
     """Against the best peer of each case; how two cores compare with one."""
     cases = {}
     for row in rows:
-        cases.setdefault((row["cutoff"], row["cores"], row["n"], row["load"]), []).append(row)
+        cases.setdefault((row.get("boundary", "periodic"), row["cutoff"], row["cores"], row["n"], row["load"]),
+                         []).append(row)
     lines = ["", "Against the fastest peer of each case, set-up included, each at the e_c which that peer reached:",
-             "cut-off cores     N     f    wall x   cpu x  fastest peer (its wall s)   salebra wall s"]
-    for (cutoff, cores, n, load), group in sorted(cases.items()):
+             "boundary cut-off cores     N     f    wall x   cpu x  fastest peer (its wall s)   salebra wall s"]
+    for (boundary, cutoff, cores, n, load), group in sorted(cases.items()):
         done = [row for row in group if "peer_cost" in row and "over_limit" not in row and "failure" not in row]
         if not done:
-            lines.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}    no peer came to an end in its time")
+            lines.append(f"{boundary:8s} {cutoff:7d} {cores:5d} {n:5d} {load:5g}    no peer came to an end in its time")
             continue
         best = min(done, key=lambda row: row["peer_cost"]["wall"])
         own = best["salebra_cost"]
         # Peers that were not run, or are still to come, cannot be ranked.
-        missing = len(PEERS) - len(group)
-        lines.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}  {best['peer_cost']['wall'] / own['wall']:8.1f}"
+        missing = len(FREE if boundary == "free" else PEERS) - len(group)
+        lines.append(f"{boundary:8s} {cutoff:7d} {cores:5d} {n:5d} {load:5g}  {best['peer_cost']['wall'] / own['wall']:8.1f}"
                      f"{best['peer_cost']['cpu'] / own['cpu']:8.1f}  {best['peer']} ({seconds(best['peer_cost']['wall'])})"
                      f"   {seconds(own['wall'])}" + (f"   [{missing} peer(s) not run]" if missing else ""))
     pairs = []
-    for (cutoff, cores, n, load), group in sorted(cases.items()):
-        other = cases.get((cutoff, 1, n, load))
+    for (boundary, cutoff, cores, n, load), group in sorted(cases.items()):
+        other = cases.get((boundary, cutoff, 1, n, load))
         if cores > 1 and other:
             ratio = {row["peer"]: row["salebra_cost"]["wall"] for row in other}
             speedups = [ratio[row["peer"]] / row["salebra_cost"]["wall"] for row in group if row["peer"] in ratio]
             if speedups:
-                pairs.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}  {statistics.median(speedups):8.2f}")
+                pairs.append(f"{boundary:8s} {cutoff:7d} {cores:5d} {n:5d} {load:5g}  {statistics.median(speedups):8.2f}")
     if pairs:
-        lines += ["", "salebra's wall time on one core over that on several:", "cut-off cores     N     f   speed-up", *pairs]
+        lines += ["", "salebra's wall time on one core over that on several:", "boundary cut-off cores     N     f   speed-up", *pairs]
     return "\n".join(lines)
 
 
@@ -283,9 +309,9 @@ def machine(arguments):
         facts["memory"] = memory.read_text().splitlines()[0].split(":")[1].strip()
     facts["salebra"] = command_output("git", "describe", "--always", "--dirty")
     packages = []
-    for python in {arguments.python, arguments.slippy_python}:
+    for python in {arguments.python, arguments.slippy_python, arguments.aspher_python}:
         packages += command_output(python, "-m", "pip", "list", "--format=freeze").splitlines()
-    wanted = ("tamaas", "contactmechanics", "surfacetopography", "numpi", "mugrid", "mufft", "slippy", "numpy", "pyfftw")
+    wanted = ("tamaas", "contactmechanics", "surfacetopography", "numpi", "mugrid", "mufft", "slippy", "aspher", "numpy", "pyfftw")
     facts["packages"] = sorted({line for line in packages if line.lower().startswith(wanted)})
     return facts
 
@@ -300,16 +326,18 @@ def parse():
     parser.add_argument("--reference", required=True, help="the program contact_reference")
     parser.add_argument("--python", default=sys.executable, help="Python with Tamaas and ContactMechanics")
     parser.add_argument("--slippy-python", default=sys.executable, help="Python with slippy")
+    parser.add_argument("--aspher-python", default=sys.executable, help="Python with ASPHER")
     parser.add_argument("--earlier-numpi", help="folder with NuMPI 0.7.3, which the dual solver of peers.py needs")
     parser.add_argument("--peers", type=lambda text: text.split(","), default=PEERS)
     parser.add_argument("--sizes", type=numbers(int), default=[512, 1024, 2048, 4096])
     parser.add_argument("--cutoffs", type=numbers(int), default=[8, 2], help="cells")
+    parser.add_argument("--boundaries", type=lambda text: text.split(","), default=["periodic", "free"])
     parser.add_argument("--loads", type=numbers(float), default=[0.005, 0.02, 0.1], help="p/(E* h')")
     parser.add_argument("--cores", type=numbers(int), default=[1, 2], help="numbers of cores to run on")
     parser.add_argument("--cpus", type=numbers(int), default=list(range(os.cpu_count() or 1)), help="which cores, in order")
     parser.add_argument("--target", type=float, default=1e-8, help="e_c that each peer has to reach")
     parser.add_argument("--repeats", type=int, default=3,
-                        help=f"runs of a solve of less than {WORTH_REPEATING} s; the median counts")
+                        help=f"runs of a solve of less than {WORTH_REPEATING} s of CPU time; the median counts")
     parser.add_argument("--limit", type=float, default=900, help="seconds of wall time for one solve of a peer")
     parser.add_argument("--budget", type=float, default=float("inf"), help="begin no further case after so many seconds")
     parser.add_argument("--results", type=Path, default=Path("contact-bench.jsonl"), help="appended to, and read to continue")
@@ -322,6 +350,8 @@ def parse():
     unknown = set(arguments.peers) - set(PEERS)
     if unknown:
         parser.error(f"--peers: {', '.join(sorted(unknown))} unknown; choose among {', '.join(PEERS)}")
+    if not set(arguments.boundaries) <= {"periodic", "free"}:
+        parser.error("--boundaries: periodic or free, or both")
     if max(arguments.cores) > len(arguments.cpus):
         parser.error(f"--cores: {max(arguments.cores)} exceeds the {len(arguments.cpus)} of --cpus")
     return arguments
@@ -341,8 +371,9 @@ def main():
         results.add({"machine": facts})
         started = time.monotonic()
         # Small grids first, so that a table which is cut short is complete up to some size.
-        cases = [(n, cutoff, load, cores, peer) for n in arguments.sizes for cutoff in arguments.cutoffs
-                 for cores in arguments.cores for load in arguments.loads for peer in arguments.peers]
+        cases = [(n, cutoff, load, cores, peer, boundary) for n in arguments.sizes for cutoff in arguments.cutoffs
+                 for cores in arguments.cores for boundary in arguments.boundaries for load in arguments.loads
+                 for peer in arguments.peers if boundary == "periodic" or peer in FREE]
         with tempfile.TemporaryDirectory() as folder:
             runner = Runner(arguments, folder)
             for case in cases:

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solve one periodic contact with one of the peers and print what it cost as one JSON object.
+"""Solve one contact with one of the peers and print what it cost as one JSON object.
 
-usage: peers.py SOLVER HEIGHTS.npy PRESSURE TOLERANCE PRESSURE_OUT.npy
+usage: peers.py SOLVER HEIGHTS.npy PRESSURE TOLERANCE BOUNDARY PRESSURE_OUT.npy
 
-HEIGHTS.npy   float64 (n, n), one period of side 1; E* = 1; a hill is positive
+HEIGHTS.npy   float64 (n, n), side 1; E* = 1; a hill is positive
 PRESSURE      nominal pressure over E*
 TOLERANCE     in the solver's own measure, lengths over the rms height, forces over the load; compare.py finds the one that counts
+BOUNDARY      periodic (one period) or free (one patch on an infinite half-space)
 Set-up and solution are timed apart, both without import and file access; memory is the growth of the process's peak.
 """
 
@@ -34,7 +35,7 @@ def errors_to(file):
         os.close(saved)
 
 
-def tamaas(heights, pressure, tolerance):
+def tamaas(heights, pressure, tolerance, boundary):
     import tamaas as tm
 
     yield
@@ -43,6 +44,9 @@ def tamaas(heights, pressure, tolerance):
     model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
     model.E, model.nu = 1.0, 0.0
     solver = tm.PolonskyKeerRey(model, heights, tolerance)
+    if boundary == "free":
+        tm.ModelFactory.registerNonPeriodic(model, "dcfft")
+        solver.setIntegralOperator("dcfft")
     solver.max_iter = 100_000
     solver.dump_freq = 1_000_000
     yield
@@ -54,13 +58,15 @@ def tamaas(heights, pressure, tolerance):
     yield np.array(model.traction), 2 * int(iterations[-1]) if iterations else None
 
 
-def contact_mechanics_system(heights):
+def contact_mechanics_system(heights, boundary):
     """System and the number of transforms it has made."""
-    from ContactMechanics import PeriodicFFTElasticHalfSpace
+    from ContactMechanics import FreeFFTElasticHalfSpace, PeriodicFFTElasticHalfSpace
     from ContactMechanics.Factory import make_system
     from SurfaceTopography import Topography
 
-    substrate = PeriodicFFTElasticHalfSpace(heights.shape, 1.0, (1.0, 1.0))
+    periodic = boundary == "periodic"
+    half_space = PeriodicFFTElasticHalfSpace if periodic else FreeFFTElasticHalfSpace
+    substrate = half_space(heights.shape, 1.0, (1.0, 1.0))
     pairs = [0]
 
     def counted(method):
@@ -70,16 +76,16 @@ def contact_mechanics_system(heights):
         return call
 
     substrate.evaluate_disp = counted(substrate.evaluate_disp)
-    system = make_system(substrate=substrate, surface=Topography(heights, (1.0, 1.0), periodic=True))
+    system = make_system(substrate=substrate, surface=Topography(heights, (1.0, 1.0), periodic=periodic))
     return system, pairs
 
 
-def contact_mechanics(heights, pressure, tolerance):
+def contact_mechanics(heights, pressure, tolerance, boundary):
     """ContactMechanics as it comes: Polonsky-Keer with restarts."""
     import ContactMechanics  # noqa: F401  (imported before the clock starts)
 
     yield
-    system, pairs = contact_mechanics_system(heights)
+    system, pairs = contact_mechanics_system(heights, boundary)
     yield
     result = system.minimize_proxy(external_force=pressure, pentol=tolerance * heights.std(),
                                    forcetol=tolerance * pressure / heights.size,
@@ -102,13 +108,13 @@ def earlier_numpi():
     return importlib.import_module("NuMPI_earlier.Optimization.CCGWithoutRestart")
 
 
-def contact_mechanics_dual(heights, pressure, tolerance):
+def contact_mechanics_dual(heights, pressure, tolerance, boundary):
     """Bugnicourt's dual conjugate gradients without restart, at given mean pressure."""
     import ContactMechanics  # noqa: F401
 
     solver = earlier_numpi().constrained_conjugate_gradients
     yield
-    system, pairs = contact_mechanics_system(heights)
+    system, pairs = contact_mechanics_system(heights, boundary)
     start = np.full(heights.shape, pressure / heights.size)
     system.init_force = start
     yield
@@ -120,20 +126,26 @@ def contact_mechanics_dual(heights, pressure, tolerance):
     yield np.asarray(result.x).reshape(heights.shape) * heights.size, pairs[0]
 
 
-def slippy(heights, pressure, tolerance):
+def slippy(heights, pressure, tolerance, boundary):
     import slippy as package
 
     package.CUDA = False
+    from slippy.core import elastic_influence_matrix_spatial
     from slippy.core.influence_matrix_utils import plan_convolve, polonsky_and_keer
 
     yield
     n = heights.shape[0]
-    wave = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
-    with np.errstate(divide="ignore"):
-        symbol = 2 / np.hypot(wave[:, None], wave[None, :])
-    symbol[0, 0] = 0
     start = np.ones(heights.shape)
-    convolve = plan_convolve(start, symbol, circular=True, fft_im=True)
+    if boundary == "periodic":
+        wave = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
+        with np.errstate(divide="ignore"):
+            symbol = 2 / np.hypot(wave[:, None], wave[None, :])
+        symbol[0, 0] = 0
+        convolve = plan_convolve(start, symbol, circular=True, fft_im=True)
+    else:
+        # G = 1/2 and nu = 0 give E* = 1.
+        response = elastic_influence_matrix_spatial("zz", (2 * n, 2 * n), (1 / n, 1 / n), 0.5, 0.0)
+        convolve = plan_convolve(start, response, circular=False, fft_im=False)
     pairs = [0]
 
     def counted(loads):
@@ -148,6 +160,19 @@ def slippy(heights, pressure, tolerance):
     yield traction, pairs[0]
 
 
+def aspher(heights, pressure, tolerance, boundary):
+    import aspher as package
+
+    yield
+    yield  # its one call contains the set-up
+    result = package.solve_nested(
+        grid_size=heights.shape[0], gap=-heights.ravel(), p_nominal=pressure, tol=tolerance,
+        backend="periodic" if boundary == "periodic" else "fft", precision="float_then_double", max_iter=100_000)
+    if not result.converged:
+        raise RuntimeError("not converged")
+    yield np.asarray(result.pressure), None
+
+
 def peak_bytes():
     """Largest resident memory. Not getrusage's: that one begins with the size of the process which started this one."""
     for line in Path("/proc/self/status").read_text().splitlines():
@@ -157,13 +182,13 @@ def peak_bytes():
 
 
 SOLVERS = {solver.__name__: solver
-           for solver in (tamaas, contact_mechanics, contact_mechanics_dual, slippy)}
+           for solver in (tamaas, contact_mechanics, contact_mechanics_dual, slippy, aspher)}
 
 
 def main():
-    name, heights_file, pressure, tolerance, out = sys.argv[1:]
+    name, heights_file, pressure, tolerance, boundary, out = sys.argv[1:]
     heights = np.ascontiguousarray(np.load(heights_file))
-    stages = SOLVERS[name](heights, float(pressure), float(tolerance))
+    stages = SOLVERS[name](heights, float(pressure), float(tolerance), boundary)
     next(stages)  # imports
     before = peak_bytes()
     wall, cpu = time.perf_counter(), time.process_time()
