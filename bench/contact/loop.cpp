@@ -78,11 +78,10 @@ int main(int argc, char** argv) {
       press(surface, 1.0, at_pressure(std::atof(argv[3])),
             {.tolerance = std::atof(argv[8]), .boundary = Boundary::free});
   const double pressed = bench::cpu_seconds();
-  SlidingContact contact(
-      surface.grid, Material::of_contact_modulus(1.0, std::atof(argv[7])),
-      {.friction_coefficient = friction,
-       .motion_scale = 2 * amplitude,
-       .stick = {.tolerance = std::atof(argv[9]), .boundary = Boundary::free}});
+  SlidingContact contact(surface.grid, Material::of_contact_modulus(1.0, std::atof(argv[7])),
+                         {.friction_coefficient = friction,
+                          .motion_scale = 2 * amplitude,
+                          .stick = {.tolerance = std::atof(argv[9]), .boundary = Boundary::free}});
   contact.advance(state.contact_pressure);
   const Loss loss = follow(contact, state.contact_pressure, positions(amplitude, steps),
                            static_cast<std::size_t>(steps), surface.grid.cell_area());
