@@ -8,7 +8,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <salebra/base/error.hpp>
 #include <span>
 #include <utility>
@@ -214,9 +213,15 @@ class PanelScript {
   }
   /// Leaves the numbers and the label of x to the panel below.
   void hide_x() {
-    static const std::regex text("'[^']*'");
     x_.label.clear();
-    x_.tics = x_.logarithmic ? std::regex_replace(x_.tics, text, "''") : x_.tics + " format ''";
+    if (!x_.logarithmic) x_.tics += " format ''";
+    // Labels of a logarithmic axis stand between quotes, before their places.
+    bool inside = false;
+    if (x_.logarithmic)
+      std::erase_if(x_.tics, [&](char c) {
+        if (c == '\'') inside = !inside;
+        return inside && c != '\'';
+      });
     x_hidden_ = true;
   }
   bool x_hidden() const { return x_hidden_; }
