@@ -147,9 +147,14 @@ nb::typed<nb::object, CycleResult> simulation(
   const double friction = options.friction_coefficient;
   return with_figure(std::move(simulated), [motion, friction](const CycleResult& result) {
     figures::Figure figure = figures::figure_of(result);
-    double force = 0;
-    for (const CycleSample& sample : result.samples)
-      force += sample.normal_force / double(result.samples.size());
+    // Both ends of the period are among the samples.
+    double force = 0, duration = 0;
+    for (std::size_t k = 1; k < result.samples.size(); ++k) {
+      const CycleSample &before = result.samples[k - 1], &after = result.samples[k];
+      force += (after.t - before.t) * (before.normal_force + after.normal_force) / 2;
+      duration += after.t - before.t;
+    }
+    force /= duration;
     figure.caption =
         "The last period of a simulated oscillation." +
         figures::setting_text(figures::motion_text(motion_of(motion)), friction, force) + ".";

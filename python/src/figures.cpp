@@ -147,7 +147,10 @@ void bind_laws() {
         } catch (const InvalidInput&) {
           // Too few points in the window: the curve is drawn alone.
         }
-        return with_limits(figure_of(self, found));
+        Figure figure = figure_of(self, found);
+        if (found)
+          figure.caption += " The interval of the decay length is the 95 % interval of the fit.";
+        return with_limits(std::move(figure));
       },
       nb::arg("fit") = true,
       "The curve and an exponential law fitted to it, as data. fit=False: no law; an "

@@ -157,7 +157,8 @@ figures::Figure damping_figure(const IndenterLaw& law, const PronySeries& prony,
   }
   figures::Figure figure = figures::figure_of("angular_frequency", frequencies, losses);
   figure.panels[0].title = "W = " + figures::value_text(loss.work_per_cycle, "J") +
-                           ", γ = " + figures::value_text(loss.damping_constant, "N s/m");
+                           ", γ = " + figures::value_text(loss.damping_constant, "N s/m") + " at " +
+                           format_quantity(own / (2 * std::numbers::pi), Dimension::frequency, 3);
   figure.panels[0].lines.push_back({.at = own, .vertical = true, .name = "this path"});
   figures::Panel loop =
       figures::curve_figure("indentation", "force", {.x = path.indentation, .y = loss.force})

@@ -77,13 +77,15 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
        .x = axis_of(slides ? "tangential_amplitude" : "tangential_force", grows_by_factors(along)),
        .y = axis_of("work_per_cycle", spans_decades(work), "loss W in a cycle"),
        .legend = Legend::top_left});
-  figure.panels.back().curves = {{.name = several ? "mean, 95 % limits over surfaces" : "",
-                                  .quantity = "work_per_cycle",
-                                  .x = along,
-                                  .y = work,
-                                  .low = low,
-                                  .high = high,
-                                  .style = Style::line_and_points}};
+  figure.panels.back().curves = {
+      {.name = several ? "mean, 95 % limits over surfaces" : "",
+       .quantity = "work_per_cycle",
+       .x = along,
+       .y = work,
+       .low = low,
+       .high = high,
+       // A single point has a bar in place of a band.
+       .style = losses.size() == 1 ? Style::points : Style::line_and_points}};
   figure.panels.back().y.prefix_of = work[largest];
   double sliding = HUGE_VAL;
   for (std::size_t k = 0; k < losses.size(); ++k)

@@ -85,6 +85,16 @@ Figure with_limits(Figure figure) {
                                                             : largest;
     for (Axis* axis : axes) axis->prefix_of = value;
   }
+  // Equations have the numbers of the paper.
+  constexpr std::string_view source = " Equations are those of Popov et al. (2015).";
+  const auto numbered = [](std::string_view text) { return text.find("Eq. ") != text.npos; };
+  const bool by_equations =
+      numbered(figure.caption) || std::ranges::any_of(figure.panels, [&](const Panel& panel) {
+        return numbered(panel.y.label) || numbered(panel.title) || numbered(panel.caption) ||
+               std::ranges::any_of(panel.curves, numbered, &Curve::name) ||
+               std::ranges::any_of(panel.lines, numbered, &ReferenceLine::name);
+      });
+  if (by_equations && figure.caption.find(source) == std::string::npos) figure.caption += source;
   char letter = 'a';
   for (Panel& panel : figure.panels) {
     // A density has the inverse of the unit along x.
@@ -100,16 +110,6 @@ Figure with_limits(Figure figure) {
                                   several ? mark + " " : "", panel.caption);
     panel.caption.clear();
   }
-  // Equations have the numbers of the paper.
-  constexpr std::string_view source = " Equations are those of Popov et al. (2015).";
-  const auto numbered = [](std::string_view text) { return text.find("Eq. ") != text.npos; };
-  const bool by_equations =
-      numbered(figure.caption) || std::ranges::any_of(figure.panels, [&](const Panel& panel) {
-        return numbered(panel.y.label) || numbered(panel.title) ||
-               std::ranges::any_of(panel.curves, numbered, &Curve::name) ||
-               std::ranges::any_of(panel.lines, numbered, &ReferenceLine::name);
-      });
-  if (by_equations && !figure.caption.ends_with(source)) figure.caption += source;
   return figure;
 }
 

@@ -154,7 +154,9 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   };
   figure.panels[0].caption =
       to(count - 1) + "Cells always in contact (black) or during a part of the cycle (grey).";
-  figure.panels[count].caption = to(2 * count - 1) + "Work over a cycle.";
+  figure.panels[count].caption = to(2 * count - 1) + (std::holds_alternative<Drag>(first.run.motion)
+                                                          ? "Energy lost over a cycle."
+                                                          : "Work over a cycle.");
   if (loops > 0)
     figure.panels[2 * count].caption = to(2 * count + loops - 1) + "Force over displacement.";
   return figure;

@@ -503,6 +503,7 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
   }
   figure.caption =
       std::string("Contact models of rough surfaces, with ") +
+      (results.front().models().size() > 4 ? "bands of boundary elements only, " : "") +
       (results.front().realisations.size() > 1 ? "95 % bands over the surfaces, without numerical "
                                                  "errors."
                                                : "numerical errors of the damping constants; a bar "

@@ -246,3 +246,16 @@ def test_notebooks_show_a_picture_above_the_table(monkeypatch: pytest.MonkeyPatc
     assert large._repr_html_().startswith("<table>")
     with pytest.raises(ImportError, match="plot needs matplotlib; install it"):
         large.plot()
+
+
+def test_the_caption_of_a_cycle_has_its_mean_force() -> None:
+    grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
+    surface = salebra.paraboloid_surface(grid, 4e-3, salebra.off_grid_center(grid))
+    material = salebra.Material(1e9, poisson=0.3)
+    contacts = salebra.boundary_element_contact_sets(surface, material, tolerance=1e-6, boundary="free")
+    motion = salebra.EqualFrequency(normal_amplitude=6e-6, tangential_amplitude=1e-6, phase=0.8)
+    cycle = salebra.simulate_cycle(contacts, material, motion, 2e-5, steps=8, boundary="free")
+    # Both ends of the period are samples: a mean over all of them would count the end twice.
+    mean = float(np.mean(cycle.normal_force[1:]))
+    found = re.search(r"F = ([\d.]+) N", cycle.figure().caption)
+    assert found and float(found[1]) == pytest.approx(mean, rel=1e-3)
