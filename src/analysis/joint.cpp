@@ -172,8 +172,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
     mean.hold = any.hold;
     mean.force = solution.state.force;
     mean.mean_force = any.mean_force;
-    if (const auto warning = detail::warning_of_held_indentation({&mean, 1}))
-      solution.contact.warnings.push_back(*warning);
+    if (const auto held = detail::warning_of_held_indentation({&mean, 1}))
+      solution.contact.warnings.push_back(*held);
   }
   if (problem.direct_steps) {
     problem.motions = of_sample(problem.motions, ratio);
