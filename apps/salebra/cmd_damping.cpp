@@ -186,7 +186,8 @@ std::string setting_of(const DampingSolution& answer, std::string_view varied,
 
 // Draws one period of the motion if there is a single case; draws nothing for a motion without a
 // period.
-void plot_case(const DampingArguments& arguments, const DampingSolution& answer, Session& session) {
+void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
+               const AssumptionReport& assumptions, Session& session) {
   if (!session.has_plot()) return;
   require_that(arguments.force_amplitude.empty(), "--plot",
                "cannot draw a single value of --force-amplitude; give a range");
@@ -203,8 +204,7 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
     loss.error = answer.results.front().error;
   }
   figures::Figure figure = figures::figure_of(cycle.path, loss);
-  figures::state_validity(figure, answer.assumptions,
-                          std::isfinite(answer.results.front().slip_work));
+  assumptions.state_in(figure);
   figure.caption += setting_of(answer, "", arguments.assumptions);
   session.plot(figure);
 }
@@ -261,23 +261,23 @@ void lose(const DampingArguments& arguments, Session& session) {
     for (const char* name : {"work_per_cycle_without_slip", "damping_constant_without_slip",
                              "damping_constant_without_slip_error"})
       object.erase(name);
+  const bool slips = std::ranges::any_of(
+      answer.results, [](const DampingResult& result) { return !std::isnan(result.slip_work); });
+  const AssumptionReport assumptions{
+      .cases = answer.assumptions, .list = !one, .slip_followed = slips};
   const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
     write_tables(session, "damping", object, {});
     if (!values.empty() && session.has_plot()) {
       figures::Figure figure = figures::figure_of(quantity, values, answer.results);
-      figures::state_validity(figure, answer.assumptions,
-                              std::isfinite(answer.results.front().slip_work));
+      assumptions.state_in(figure);
       figure.caption += setting_of(answer, quantity, arguments.assumptions);
       session.plot(figure);
     } else if (!arguments.maps.given())
-      plot_case(arguments, answer, session);
+      plot_case(arguments, answer, assumptions, session);
     arguments.maps.write(answer, arguments.steps, session);
   }
-  const bool slips = std::ranges::any_of(
-      answer.results, [](const DampingResult& result) { return !std::isnan(result.slip_work); });
-  AssumptionReport{.cases = answer.assumptions, .list = !one, .slip_followed = slips}.answer(
-      session, object);
+  assumptions.answer(session, object);
   if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
                                    answer.results.size()));

@@ -220,8 +220,7 @@ Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
 std::string table_of(const std::vector<OscillationOutcome>& outcomes, const std::string& heading,
                      const std::vector<std::string>& shapes) {
   // With friction, the loss of the motion as described is that with slip.
-  const bool slips =
-      outcomes.front().frictional && std::isfinite(outcomes.front().friction_coefficient);
+  const bool slips = outcomes.front().slips();
   std::vector<std::vector<std::string>> rows{{heading, slips ? "W without slip" : "W",
                                               "W over Eq. (12) or (15)", "W over finite amplitude",
                                               "W over elastic energy"}};
@@ -283,8 +282,7 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
     Json object = to_json(outcome);
     if (arguments.decay_length)
       object.add(json_of(exponential_loss(outcome, *arguments.decay_length)));
-    const bool slips = outcome.frictional && std::isfinite(outcome.friction_coefficient);
-    const AssumptionReport assumptions{.cases = {checked[k]}, .slip_followed = slips};
+    const AssumptionReport assumptions{.cases = {checked[k]}, .slip_followed = outcome.slips()};
     if (single) {
       assumptions.answer(session, object);
     } else {

@@ -144,7 +144,9 @@ std::string motion_of_caption(const ViscoelasticArguments& arguments) {
   const auto text = [&](const auto& motion) {
     return figures::motion_text(motion, varied == "frequency" ? "angular_frequency" : varied);
   };
-  return " Motion: " + std::visit(text, arguments.motion.motions().front()) + ".";
+  const std::optional<double>& pressure = arguments.point.pressure;
+  return " Motion: " + std::visit(text, arguments.motion.motions().front()) +
+         (pressure ? ", p = " + format_quantity(*pressure, Dimension::pressure, 4) : "") + ".";
 }
 
 void add_viscoelastic_command(Program& program) {

@@ -212,10 +212,6 @@ void oscillate(const ViscoelasticArguments& arguments, Session& session) {
     figures::Figure figure =
         figures::figure_of(table.columns.front().name, table.columns.front().values, cycles);
     figure.caption += motion_of_caption(arguments);
-    if (arguments.point.pressure)
-      figure.caption.replace(
-          figure.caption.size() - 1, 1,
-          ", p = " + format_quantity(*arguments.point.pressure, Dimension::pressure, 4) + ".");
     assumptions.state_in(figure);
     session.plot(figure);
   }

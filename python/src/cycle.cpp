@@ -147,17 +147,10 @@ nb::typed<nb::object, CycleResult> simulation(
   const double friction = options.friction_coefficient;
   return with_figure(std::move(simulated), [motion, friction](const CycleResult& result) {
     figures::Figure figure = figures::figure_of(result);
-    // Both ends of the period are among the samples.
-    double force = 0, duration = 0;
-    for (std::size_t k = 1; k < result.samples.size(); ++k) {
-      const CycleSample &before = result.samples[k - 1], &after = result.samples[k];
-      force += (after.t - before.t) * (before.normal_force + after.normal_force) / 2;
-      duration += after.t - before.t;
-    }
-    force /= duration;
-    figure.caption =
-        "The last period of a simulated oscillation." +
-        figures::setting_text(figures::motion_text(motion_of(motion)), friction, force) + ".";
+    figure.caption = "The last period of a simulated oscillation." +
+                     figures::setting_text(figures::motion_text(motion_of(motion)), friction,
+                                           mean_over_period(result, &CycleSample::normal_force)) +
+                     ".";
     figures::state_validity(figure, std::span<const AssumptionVerdict>());
     return figure;
   });

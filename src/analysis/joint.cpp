@@ -186,9 +186,9 @@ JointSolution solve(JointProblem problem, const Context& context) {
   if (const auto sliding = std::ranges::count(solution.losses, Regime::sliding, &JointLoss::regime);
       sliding > 0)
     solution.warnings.push_back(fmt::format(
-        "the contact slides at {} of {} motions, with T above 0.95 μF: its loss is that of Coulomb "
-        "friction, not of a damper",
-        sliding, solution.losses.size()));
+        "the contact slides at {} of {} motions{}: its loss is that of Coulomb friction, not of a "
+        "damper",
+        sliding, solution.losses.size(), oscillates ? "" : ", with T above 0.95 μF"));
 
   const JointLoss& largest =
       *std::ranges::max_element(solution.losses, {}, &JointLoss::tangential_amplitude);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/analysis/oscillation.hpp>
 #include <salebra/base/error.hpp>
@@ -40,14 +39,6 @@ double change(const CycleResult& a, const CycleResult& b, double CycleSample::*q
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= reference[i];
   const double scale = greatest(reference);
   return scale > 0 ? greatest(values) / scale : unknown;
-}
-
-// Mean of a quantity over the period. The first sample is left out, because the last sample is the
-// same phase one period later.
-double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity) {
-  const std::vector<double> values = column(cycle, quantity);
-  return std::accumulate(values.begin() + 1, values.end(), 0.0) /
-         static_cast<double>(values.size() - 1);
 }
 
 double tangential_scale(const Oscillation& motion) {
@@ -155,6 +146,8 @@ bool OscillationOutcome::converged() const {
   const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged(); };
   return intervals.converged() && done(cycle) && done(frictional) && done(coupled);
 }
+
+bool OscillationOutcome::slips() const { return frictional && std::isfinite(friction_coefficient); }
 
 bool OscillationOutcome::interrupted() const {
   const auto stopped = [](const std::optional<CycleResult>& one) {

@@ -192,14 +192,16 @@ Figure figure_of(const ForceCurve& all, const std::optional<ExponentialFit>& giv
       if (sample.converged && std::isfinite(sample.pressure) &&
           std::isfinite(sample.tangential_stiffness))
         quotient.y[k++] /= sample.normal_stiffness;
-    std::erase_if(quotient.y, [](double y) { return !std::isfinite(y); });
-    if (quotient.y.empty()) continue;
+    std::vector<double> known = quotient.y;
+    std::erase_if(known, [](double y) { return !std::isfinite(y); });
+    if (known.empty()) continue;
     // A ratio that is the same at all loads is that of the moduli and no result.
-    const auto [least, most] = std::ranges::minmax(quotient.y);
-    if (quotient.y.size() > 1 && most - least < 1e-9 * most)
-      stiffness.curves.back().name += " = (G^{*}/E^{*})K, assumed";
-    else
+    const auto [least, most] = std::ranges::minmax(known);
+    if (known.size() == 1 || most - least >= 1e-9 * most)
       ratio.curves.push_back(std::move(quotient));
+    else if (!stiffness.curves.empty() &&
+             stiffness.curves.back().quantity == "tangential_stiffness")
+      stiffness.curves.back().name += " = (G^{*}/E^{*})K, assumed";
   }
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
   if (!ratio.curves.empty()) figure.panels.push_back(std::move(ratio));

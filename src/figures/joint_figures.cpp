@@ -91,14 +91,15 @@ Figure figure_of(const std::vector<JointLoss>& losses, const std::vector<double>
   for (std::size_t k = 0; k < losses.size(); ++k)
     if (losses[k].regime == Regime::sliding) sliding = std::min(sliding, along[k]);
   if (std::isfinite(sliding))
-    figure.panels.back().ranges.push_back(
-        {.low = sliding, .high = 10 * along[largest], .vertical = true, .name = "sliding"});
+    figure.panels.back().lines.push_back(
+        {.at = sliding, .vertical = true, .name = "sliding from here on"});
   figure.panels.push_back(
       {.title = fmt::format("largest motion, {}: W = {}", name_of(losses[largest].regime), loss),
        .caption =
            std::string("Loop of the largest motion with its backbone.") +
            (losses[largest].regime == Regime::sliding
-                ? " It counts as sliding: F_x is above 95 % of µF, or all of the contact slips."
+                ? " It counts as sliding: a contact as small as the region that sticks would carry "
+                  "less than 5 % of F."
                 : ""),
        .x = axis_of("tangential_amplitude", false, "displacement x"),
        .y = axis_of("tangential_force", false, "tangential force F_x"),

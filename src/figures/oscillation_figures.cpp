@@ -23,10 +23,6 @@ Panel contact_panel(const OscillationOutcome& outcome, const std::string& title)
   return panel;
 }
 
-bool slips(const OscillationOutcome& outcome) {
-  return outcome.frictional && std::isfinite(outcome.friction_coefficient);
-}
-
 /// The loss without slip, or that with slip: of the motion as described where friction is known.
 std::string loss_text(const OscillationOutcome& outcome, bool slip) {
   const CycleResult& cycle = slip ? *outcome.frictional : *outcome.cycle;
@@ -41,7 +37,7 @@ Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {
   const double predicted = outcome.intervals.small_amplitude_work;
   const bool lossless = !outcome.over(predicted);
   // A loss by slip that is far above that without slip would hide it.
-  const bool dominated = slips(outcome) && outcome.frictional->work_per_cycle > 10 * predicted;
+  const bool dominated = outcome.slips() && outcome.frictional->work_per_cycle > 10 * predicted;
   const double reference = dominated ? 1 : lossless ? outcome.elastic_energy() : predicted;
   Panel panel;
   panel.title = title;
@@ -61,8 +57,8 @@ Panel work_panel(const OscillationOutcome& outcome, const std::string& title) {
                             .y = std::move(values),
                             .color = color});
   };
-  if (!dominated) add(slips(outcome) ? "without slip" : "", *outcome.cycle, 0);
-  if (slips(outcome)) add("with slip", *outcome.frictional, 1);
+  if (!dominated) add(outcome.slips() ? "without slip" : "", *outcome.cycle, 0);
+  if (outcome.slips()) add("with slip", *outcome.frictional, 1);
   panel.legend = Legend::top_left;
   if (!lossless && !dominated)
     panel.lines.push_back({.at = 1, .name = drag ? "Eq. (15)" : "Eq. (12)"});
@@ -80,7 +76,7 @@ Panel loop_panel(const OscillationOutcome& outcome, const std::string& title) {
                             .y = column(cycle, &CycleSample::tangential_force)});
   };
   add("without slip", *outcome.cycle);
-  if (slips(outcome)) add("with slip", *outcome.frictional);
+  if (outcome.slips()) add("with slip", *outcome.frictional);
   if (outcome.coupled) add("coupled", *outcome.coupled);
   panel.legend = Legend::top_left;
   return panel;
@@ -107,8 +103,8 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   figure.caption += alike ? " Motion: " + setting_of(first.run) : std::string(" Motions");
   for (std::size_t k = 0; k < count && !alike; ++k)
     figure.caption += (k == 0 ? ": " : "; ") + names[k] + ", " + setting_of(outcomes[k].run);
-  figure.caption += slips(first) ? fmt::format("; µ = {:.3g}", first.friction_coefficient)
-                                 : std::string("; no slip");
+  figure.caption += first.slips() ? fmt::format("; µ = {:.3g}", first.friction_coefficient)
+                                  : std::string("; no slip");
   figure.caption += alike ? fmt::format("; {}.", fmt::join(names, ", ")) : ".";
   if (!single) {
     figure.title = "Contact regions and work over a cycle";
@@ -116,28 +112,29 @@ Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
   }
   for (std::size_t k = 0; k < count; ++k)
     figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : names[k]));
-  // That nothing was checked is said once for all contacts.
-  std::vector<std::string> validity;
+  std::vector<std::vector<AssumptionVerdict>> verdicts;
   for (std::size_t k = 0; k < assumptions.size(); ++k)
-    validity.push_back(validity_text(verdicts_of(assumptions.subspan(k, 1), slips(outcomes[k]))));
+    verdicts.push_back(verdicts_of(assumptions.subspan(k, 1), outcomes[k].slips()));
+  // That nothing was checked is said once for all contacts.
   const bool unchecked =
-      !single && !validity.empty() && std::ranges::all_of(validity, [](const std::string& text) {
-        return text == "validity not checked";
+      !single && !verdicts.empty() && std::ranges::all_of(verdicts, [](const auto& one) {
+        return validity_of(one) == Validity::not_checked;
       });
   for (std::size_t k = 0; k < count; ++k) {
-    const bool stated = !unchecked && k < validity.size() && !validity[k].empty();
-    figure.panels.push_back(work_panel(outcomes[k], (single ? "" : names[k] + ": ") +
-                                                        loss_text(outcomes[k], slips(outcomes[k])) +
-                                                        (stated ? " (" + validity[k] + ")" : "")));
+    const std::string validity =
+        !unchecked && k < verdicts.size() ? validity_text(verdicts[k]) : "";
+    figure.panels.push_back(work_panel(
+        outcomes[k], (single ? "" : names[k] + ": ") + loss_text(outcomes[k], outcomes[k].slips()) +
+                         (validity.empty() ? "" : " (" + validity + ")")));
   }
   // The title has the loss of the motion as described.
-  if (slips(first)) {
+  if (first.slips()) {
     std::vector<std::string> losses;
     for (std::size_t k = 0; k < count; ++k)
       losses.push_back((single ? "" : names[k] + ", ") + loss_text(outcomes[k], false));
     figure.caption += fmt::format(" Without slip: {}.", fmt::join(losses, "; "));
   }
-  if (unchecked) figure.title += " (" + validity[0] + ")";
+  if (unchecked) figure.title += " (" + validity_text(verdicts[0]) + ")";
   figure.one_legend = true;
   std::size_t loops = 0;
   for (std::size_t k = 0; k < count; ++k)

@@ -27,6 +27,8 @@ using Means = std::vector<EnsembleMean>;
 
 /// Surfaces whose curves are drawn singly; more would only blur the picture.
 constexpr std::size_t max_single_curves = 24;
+/// Models whose bands are drawn; those of more would hide each other.
+constexpr std::size_t few_models = 4;
 
 std::vector<double> column(const Means& estimates, double EnsembleMean::*member) {
   std::vector<double> values;
@@ -189,8 +191,7 @@ class Pictures {
     if (n_.motion) of_ratios();
     std::erase_if(pictures_,
                   [](const Figure& picture) { return !shows_anything(picture.panels.front()); });
-    // The bands of many models would hide each other.
-    if (n_.models.size() > 4)
+    if (n_.models.size() > few_models)
       for (Figure& picture : pictures_)
         for (Curve& curve : picture.panels.front().curves)
           if (curve.style == Style::line_and_points && curve.color != int(ContactModel::bem))
@@ -503,12 +504,12 @@ Figure figure_of(const std::vector<StudyResult>& results, const ParameterLists& 
   }
   figure.caption =
       std::string("Contact models of rough surfaces, with ") +
-      (results.front().models().size() > 4 ? "bands of boundary elements only, " : "") +
-      (results.front().realisations.size() > 1 ? "95 % bands over the surfaces, without numerical "
-                                                 "errors."
-                                               : "numerical errors of the damping constants; a bar "
-                                                 "that is not seen is shorter than its "
-                                                 "symbol.") +
+      (results.front().realisations.size() == 1 ? "numerical errors of the damping constants; a "
+                                                  "bar that is not seen is shorter than its "
+                                                  "symbol."
+       : results.front().models().size() > few_models
+           ? "95 % bands of boundary elements over the surfaces, without numerical errors."
+           : "95 % bands over the surfaces, without numerical errors.") +
       (results.front().configuration.adhesion ? "" : " " + motion_sentence(answers.front()));
   std::set<std::string> warned;
   const auto warn = [&](const std::string& name, const std::string& text) {

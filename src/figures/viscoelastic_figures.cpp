@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Figures of losses on a viscoelastic body, of an indenter and of a rough surface, and of its creep.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/figures/figures.hpp>
@@ -62,6 +64,7 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
 
 Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                  const std::vector<ViscoelasticCycle>& cycles) {
+  require(!cycles.empty(), "cycles", cycles.size(), "given: there is nothing to draw");
   // Users give frequencies in Hz.
   const bool angular = quantity == "angular_frequency";
   std::vector<double> along = values;
@@ -81,16 +84,19 @@ Figure figure_of(std::string_view quantity, const std::vector<double>& values,
                     "leave, and their sum with its numerical error (band). (b) Stiffnesses in and "
                     "out of phase.",
                 .columns = 2};
-  const C& last = cycles.back();
+  // A cycle whose steady state was not found has no loss.
+  std::size_t shown = cycles.size() - 1;
+  while (shown > 0 && !std::isfinite(cycles[shown].work_per_cycle)) --shown;
+  const C& last = cycles[shown];
   figure.panels.push_back(
       {.title =
            "W = " + error_text(last.work_per_cycle, last.work_per_cycle_error, Dimension::energy) +
            ", γ = " + value_text(last.damping_constant, "N s/m") + " at " +
-           value_text(along.back(), x.unit),
+           value_text(along[shown], x.unit),
        .x = x,
        .y = axis_of("work_per_cycle", true, "loss W"),
        .legend = Legend::top_left});
-  figure.panels.back().y.prefix_of = last.work_per_cycle;
+  if (std::isfinite(last.work_per_cycle)) figure.panels.back().y.prefix_of = last.work_per_cycle;
   figure.panels.back().curves = {curve("normal", "normal_work", &C::normal_work),
                                  curve("tangential", "tangential_work", &C::tangential_work),
                                  curve("released by leaving cells", "jump_work", &C::jump_work)};

@@ -5,9 +5,11 @@
 #include <numbers>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/damping/assumptions.hpp>
+#include <salebra/damping/viscoelastic_cycle.hpp>
 #include <salebra/figures/figures.hpp>
 #include <salebra/results/assumption_verdicts.hpp>
 #include <salebra/study/realisation.hpp>
@@ -247,6 +249,50 @@ TEST_CASE("Panels have letters in order, their sentences become the caption, and
   figure.panels.resize(1);
   CHECK(with_limits(figure).panels[0].title == "first");
   CHECK(with_limits(figure).caption == "Two curves. first panel.");
+}
+
+TEST_CASE("A ratio of stiffnesses is drawn only where it was computed", "[figures]") {
+  ForceCurve curve;
+  for (const double pressure : {1e6, 2e6, 4e6}) {
+    ForceSample& sample = curve.samples.emplace_back();
+    sample.mean_gap = 1e-8 * std::log(1e7 / pressure);
+    sample.pressure = pressure;
+    sample.force = 1e-6 * pressure;
+    sample.normal_stiffness = 10 * pressure;
+    sample.tangential_stiffness = 8 * pressure;
+    sample.converged = true;
+  }
+  // K_t = 0.8 K at all loads is that of the moduli.
+  const Figure assumed = figure_of(curve, std::nullopt);
+  CHECK(assumed.panels.back().curves.back().name == "tangential, K_t = (G^{*}/E^{*})K, assumed");
+  curve.samples[2].tangential_stiffness *= 1.01;
+  // A load without K has no ratio, and the others keep their places.
+  curve.samples[1].normal_stiffness = std::nan("");
+  const Curve ratio = figure_of(curve, std::nullopt).panels.back().curves.front();
+  REQUIRE(ratio.x.size() == ratio.y.size());
+  CHECK(ratio.y[0] == Approx(0.8));
+  CHECK(std::isnan(ratio.y[1]));
+  CHECK(ratio.y[2] == Approx(0.808));
+  // A curve by pressures without forces has no stiffnesses over the force.
+  for (ForceSample& sample : curve.samples) sample.force = std::nan("");
+  curve.samples[2].tangential_stiffness = 8 * curve.samples[2].pressure;
+  CHECK(figure_of(curve, std::nullopt).panels.size() == 1);
+}
+
+TEST_CASE("The headline of viscoelastic cycles is that of the last one with a loss", "[figures]") {
+  std::vector<ViscoelasticCycle> cycles(3);
+  cycles[0].work_per_cycle = 1e-12;
+  cycles[1].work_per_cycle = 2e-12;
+  cycles[1].work_per_cycle_error = 1e-13;
+  cycles[1].damping_constant = 3;
+  cycles[2].work_per_cycle = std::nan("");
+  const std::vector<double> frequencies{2 * std::numbers::pi, 20 * std::numbers::pi,
+                                        200 * std::numbers::pi};
+  CHECK(figure_of("angular_frequency", frequencies, cycles).panels[0].title ==
+        "W = 2 pJ ± 5 %, γ = 3 N s/m at 10 Hz");
+  CHECK_THROWS_AS(
+      figure_of("angular_frequency", std::vector<double>(), std::vector<ViscoelasticCycle>()),
+      InvalidInput);
 }
 
 TEST_CASE("A headline says that its result is not valid, and why", "[figures]") {

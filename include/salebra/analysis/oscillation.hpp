@@ -80,6 +80,9 @@ struct OscillationOutcome {
   double friction_coefficient = 0;  ///< μ of frictional and coupled; infinite: no slip
   double dundurs = 0;               ///< β of the coupled cycle
 
+  /// Whether a cycle with finite friction was simulated, so that the loss of the motion as described
+  /// is that of `frictional`.
+  bool slips() const;
   double work_per_cycle() const;
   /// Error of work_per_cycle(), J: the error due to the time steps or, without time steps, that of
   /// the interval quadrature; plus the error due to the cell size if the cells were refined.

@@ -284,6 +284,16 @@ inline std::vector<double> column(const CycleResult& cycle, double CycleSample::
   return values;
 }
 
+/// Returns the mean of one member over the period; NaN without samples. The first sample is left
+/// out, because the last one is the same phase one period later.
+///     const double force = mean_over_period(cycle, &CycleSample::normal_force);
+inline double mean_over_period(const CycleResult& cycle, double CycleSample::*value) {
+  double sum = 0;
+  for (std::size_t k = 1; k < cycle.samples.size(); ++k) sum += cycle.samples[k].*value;
+  return cycle.samples.size() < 2 ? std::numeric_limits<double>::quiet_NaN()
+                                  : sum / static_cast<double>(cycle.samples.size() - 1);
+}
+
 /// Simulates a cycle with infinite friction.
 ///
 ///     ContactSets contacts = boundary_element_contact_sets(surface, material.contact_modulus);
